@@ -1,0 +1,217 @@
+# Monge's build, for GNU make 4. `make help` lists the targets.
+#
+# CC, CFLAGS, LDFLAGS, PREFIX, DESTDIR are the user's. What the pictures depend on is kept apart from
+# CFLAGS, so that CFLAGS=-O0 (or -O3, or -march=native) gives the same bits. V=1 shows the commands.
+#
+# A part of the program on its own, wherever you like:
+#     make test T=box3 STATIONS="base shape" BUILD=/tmp/mine
+
+VERSION := 0.1.0
+
+BUILD := build
+PREFIX ?= /usr/local
+CFLAGS ?= -O2 -g
+JOBS = $(eval JOBS := $(shell getconf _NPROCESSORS_ONLN 2>/dev/null || echo 1))$(JOBS)
+
+# The folders of src/ in their order: each uses those before it, never those after.
+STATIONS := base lang scene shape accel render image cli
+LIBRARIES := yaml-0.1 libpng sleef
+
+# ---- Flags ----
+
+WARNINGS := -Wall -Wextra -Wshadow -Wconversion -Wmissing-prototypes
+LANGUAGE := -std=c17 -ffp-contract=off -fno-math-errno -D_GNU_SOURCE -Isrc -I$(BUILD)/gen
+# Asked once, and not before it is needed: a fresh machine has no pkg-config yet.
+PKG_CFLAGS = $(eval PKG_CFLAGS := $(shell pkg-config --cflags $(LIBRARIES) cmocka 2>/dev/null))$(PKG_CFLAGS)
+PKG_LIBS = $(eval PKG_LIBS := $(shell pkg-config --libs $(LIBRARIES) 2>/dev/null))$(PKG_LIBS)
+
+# VARIANT is what `make check` and its like add.
+COMPILE = $(CC) $(CFLAGS) $(VARIANT) $(LANGUAGE) -pthread $(WARNINGS) $(PKG_CFLAGS)
+LINK = $(CC) $(CFLAGS) $(VARIANT) -pthread $(LDFLAGS)
+LIBS = $(PKG_LIBS) -lpthread -lm
+
+# ---- Files ----
+
+ifneq ($(filter cli,$(STATIONS)),)
+PROGRAM := $(BUILD)/monge
+FACE := $(wildcard src/*.c)
+endif
+SOURCES := $(wildcard $(STATIONS:%=src/%/*.c)) $(FACE)
+UNIT := $(wildcard tests/unit/test_*.c)
+ifneq ($(filter lang,$(STATIONS)),)
+GRAMMAR := $(BUILD)/gen/grammar_tables
+endif
+
+object = $(patsubst %.c,$(BUILD)/obj/%.o,$(1))
+OBJECTS := $(call object,$(filter-out src/cli/%,$(SOURCES))) $(GRAMMAR:$(BUILD)/%=$(BUILD)/obj/%.o)
+CLI_OBJECTS := $(call object,$(filter src/cli/%,$(SOURCES)))
+TOOL_OBJECTS := $(call object,$(wildcard src/base/*.c src/lang/yaml.c src/lang/spelling.c))
+
+UNIT_PROGRAMS := $(UNIT:tests/unit/%.c=$(BUILD)/tests/%)
+TESTS := $(UNIT_PROGRAMS) $(wildcard tests/*.sh)
+ifdef T
+UNIT_PROGRAMS := $(filter %/test_$(T:test_%=%),$(UNIT_PROGRAMS))
+TESTS := $(UNIT_PROGRAMS) $(filter tests/$(T) tests/$(T).sh,$(TESTS))
+PROGRAM_OF_TESTS := $(if $(filter %.sh,$(TESTS)),$(PROGRAM))
+else
+PROGRAM_OF_TESTS := $(PROGRAM)
+endif
+
+QUIET := $(if $(V),,@)
+say = @printf '  %-5s %s\n' $(1) $(2)
+# In a sub-make, so that the libraries which `deps` has just brought are seen; `+` passes -j on.
+SUBMAKE = $(MAKE) --no-print-directory $(if $(findstring -j,$(MAKEFLAGS)),,-j$(JOBS))
+
+# ---- What people ask for ----
+
+.DEFAULT_GOAL := all
+.PHONY: all demo test check tsan coverage bench reference format lint deps install uninstall clean help
+
+all: ## build the program, build/monge
+	@tools/deps --check
+	+@$(SUBMAKE) build-program
+
+demo: deps ## render every scene of scenes/report/ to out/
+	+@$(SUBMAKE) build-program
+	@mkdir -p out
+	$(BUILD)/monge render -o out/ scenes/report/*.yaml
+	@echo "The pictures are in $(CURDIR)/out"
+
+test: deps ## run all tests; T=name runs tests/unit/test_name.c or tests/name.sh alone
+	+@$(SUBMAKE) run-tests EXTRA_TESTS=$(if $(T),,tools/includes)
+
+SANITIZE := -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
+check: deps ## the tests under the address and undefined-behaviour sanitizers, in a hostile build; with clang too
+	+@$(SUBMAKE) run-tests BUILD=$(BUILD)/check VARIANT="-O1 $(SANITIZE) -DMONGE_HOSTILE"
+	@if tools/deps --sanitizes clang; then echo "With clang:"; else echo "No clang here: gcc alone."; fi
+	+@if tools/deps --sanitizes clang; then $(SUBMAKE) run-tests CC=clang BUILD=$(BUILD)/check-clang \
+	    VARIANT="-O1 $(SANITIZE) -DMONGE_HOSTILE"; fi
+
+tsan: deps ## the tests under the thread sanitizer
+	+@$(SUBMAKE) run-tests BUILD=$(BUILD)/tsan VARIANT="-O1 -fsanitize=thread"
+
+coverage: deps ## the tests with gcc's line coverage, per file of src/; fails below 90 %
+	@find $(BUILD)/coverage -name '*.gcda' -delete 2>/dev/null || true
+	+@$(SUBMAKE) run-tests CC=gcc CFLAGS="-O0 -g" BUILD=$(BUILD)/coverage VARIANT="--coverage -fprofile-update=atomic"
+	@tools/coverage $(BUILD)/coverage 90
+
+bench: all ## time scenes/report/final.yaml at 1024x1024
+	@tools/bench $(BUILD)/monge
+
+reference: ## make grammar/reference.md anew from grammar/*.yaml
+	+@$(SUBMAKE) $(BUILD)/tools/grammar
+	$(BUILD)/tools/grammar reference grammar grammar/reference.md
+
+format: ## lay out the code by .clang-format, where clang-format is installed
+	@if command -v clang-format >/dev/null; then clang-format -i $(wildcard src/*.[ch] src/*/*.[ch] tests/unit/*.[ch] tools/*.c); \
+	 else echo "format: clang-format is not installed"; fi
+
+lint: ## what compilers and clang-format have to say, as errors
+	+@$(SUBMAKE) build-all BUILD=$(BUILD)/lint VARIANT=-Werror
+	+@if command -v clang >/dev/null; then $(SUBMAKE) build-all CC=clang BUILD=$(BUILD)/lint-clang VARIANT=-Werror; fi
+	@if command -v clang-format >/dev/null; then \
+	    clang-format --dry-run $(wildcard src/*.[ch] src/*/*.[ch] tests/unit/*.[ch] tools/*.c); fi
+
+deps: ## install what the build needs and is not there
+	@tools/deps
+
+help: ## this list
+	@echo "Monge $(VERSION). Targets:"
+	@sed -n 's/^\([a-z]*\):[^#]*## /\1\t/p' Makefile | while IFS="$$(printf '\t')" read -r target text; do \
+	    printf '  make %-10s %s\n' "$$target" "$$text"; done
+	@echo "Variables: CC CFLAGS LDFLAGS PREFIX=$(PREFIX) DESTDIR BUILD=$(BUILD) T V=1"
+
+clean: ## remove build/ and out/
+	rm -rf $(BUILD) out
+
+# ---- Installing ----
+
+BIN = $(DESTDIR)$(PREFIX)/bin
+LIB = $(DESTDIR)$(PREFIX)/lib
+INCLUDE = $(DESTDIR)$(PREFIX)/include
+SHARE = $(DESTDIR)$(PREFIX)/share
+DOCS = README.md LICENSE grammar/reference.md
+BASH_COMPLETION = $(SHARE)/bash-completion/completions/monge
+ZSH_COMPLETION = $(SHARE)/zsh/site-functions/_monge
+FISH_COMPLETION = $(SHARE)/fish/vendor_completions.d/monge.fish
+
+install: all ## to PREFIX (under DESTDIR): program, library, manual page, completions, documents
+	mkdir -p $(BIN) $(LIB)/pkgconfig $(INCLUDE) $(SHARE)/man/man1 $(SHARE)/doc/monge \
+	    $(dir $(BASH_COMPLETION) $(ZSH_COMPLETION) $(FISH_COMPLETION))
+	install -m 755 $(BUILD)/monge $(BIN)/monge
+	install -m 644 $(BUILD)/libmonge.a $(LIB)/libmonge.a
+	install -m 644 src/monge.h $(INCLUDE)/monge.h
+	printf '%s\n' 'Name: monge' 'Description: renders scenes that are data' 'Version: $(VERSION)' \
+	    'Requires: $(LIBRARIES)' 'Cflags: -I$(PREFIX)/include' 'Libs: -L$(PREFIX)/lib -lmonge -lpthread -lm' \
+	    > $(LIB)/pkgconfig/monge.pc
+	$(BUILD)/monge help --man > $(SHARE)/man/man1/monge.1
+	$(BUILD)/monge help --completion bash > $(BASH_COMPLETION)
+	$(BUILD)/monge help --completion zsh > $(ZSH_COMPLETION)
+	$(BUILD)/monge help --completion fish > $(FISH_COMPLETION)
+	install -m 644 $(DOCS) $(SHARE)/doc/monge
+
+uninstall: ## remove what install put there
+	rm -f $(BIN)/monge $(LIB)/libmonge.a $(LIB)/pkgconfig/monge.pc $(INCLUDE)/monge.h $(SHARE)/man/man1/monge.1 \
+	    $(BASH_COMPLETION) $(ZSH_COMPLETION) $(FISH_COMPLETION)
+	rm -rf $(SHARE)/doc/monge
+
+# ---- How it is made ----
+
+.PHONY: build-program build-all run-tests FORCE
+.SECONDARY:
+.DELETE_ON_ERROR:
+
+build-program: $(BUILD)/monge
+build-all: $(PROGRAM) $(BUILD)/libmonge.a $(UNIT:tests/unit/%.c=$(BUILD)/tests/%)
+
+run-tests: $(UNIT_PROGRAMS) $(PROGRAM_OF_TESTS)
+	@CC='$(CC)' FLAGS='$(LANGUAGE) $(WARNINGS) $(PKG_CFLAGS)' JOBS=$(JOBS) SHOW='$(T)' \
+	    tools/test $(BUILD) $(TESTS) $(EXTRA_TESTS)
+
+$(BUILD)/monge: $(CLI_OBJECTS) $(BUILD)/libmonge.a
+	$(call say,link,$@)
+	$(QUIET)$(LINK) -o $@ $^ $(LIBS)
+
+$(BUILD)/libmonge.a: $(OBJECTS)
+	$(call say,ar,$@)
+	$(QUIET)rm -f $@ && ar rcs $@ $^
+
+$(BUILD)/tests/%: $(BUILD)/obj/tests/unit/%.o $(BUILD)/libmonge.a
+	@mkdir -p $(@D)
+	$(call say,link,$@)
+	$(QUIET)$(LINK) -o $@ $^ -lcmocka $(LIBS)
+
+$(BUILD)/tools/grammar: $(BUILD)/obj/tools/grammar.o $(TOOL_OBJECTS)
+	@mkdir -p $(@D)
+	$(call say,link,$@)
+	$(QUIET)$(LINK) -o $@ $^ $(LIBS)
+
+$(BUILD)/gen/grammar_tables.h: $(BUILD)/tools/grammar $(wildcard grammar/*.yaml)
+	@mkdir -p $(@D)
+	$(call say,gen,$@)
+	$(QUIET)$< tables-header grammar $@
+
+$(BUILD)/gen/grammar_tables.c: $(BUILD)/tools/grammar $(wildcard grammar/*.yaml)
+	@mkdir -p $(@D)
+	$(call say,gen,$@)
+	$(QUIET)$< tables grammar $@
+
+# The header comes before any object may need it; after that the .d files know which do.
+$(filter-out $(TOOL_OBJECTS),$(OBJECTS) $(CLI_OBJECTS)) $(call object,$(UNIT)): | $(GRAMMAR:%=%.h)
+
+$(BUILD)/obj/%.o: %.c $(BUILD)/flags
+	@mkdir -p $(@D)
+	$(call say,cc,$<)
+	$(QUIET)$(COMPILE) -DMONGE_VERSION='"$(VERSION)"' -MMD -MP -c -o $@ $<
+
+$(BUILD)/obj/gen/%.o: $(BUILD)/gen/%.c $(BUILD)/flags
+	@mkdir -p $(@D)
+	$(call say,cc,$<)
+	$(QUIET)$(COMPILE) -MMD -MP -c -o $@ $<
+
+# Changes when the flags do, and with it everything compiled.
+$(BUILD)/flags: FORCE
+	@mkdir -p $(@D)
+	@echo '$(COMPILE) $(LDFLAGS) $(VERSION)' | cmp -s - $@ || echo '$(COMPILE) $(LDFLAGS) $(VERSION)' > $@
+
+-include $(shell find $(BUILD)/obj -name '*.d' 2>/dev/null)

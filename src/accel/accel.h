@@ -1,0 +1,32 @@
+/* Finds what a ray hits among many primitives: a bounding volume hierarchy behind two questions,
+ * nearest hit and any hit. */
+#ifndef MONGE_ACCEL_ACCEL_H
+#define MONGE_ACCEL_ACCEL_H
+
+#include "base/arena.h"
+#include "shape/shape.h"
+
+struct accel;
+
+/* Builds the hierarchy over all primitives, which must outlive it; it lives in `arena`. The same
+ * tree for the same primitives, always. */
+struct accel *accel_build(struct arena *arena, const struct primitives *primitives);
+
+struct hit {
+    uint32_t number; /* of the primitive */
+    struct crossing crossing;
+};
+
+/* The hit with the smallest t in t_min < t <= t_max; of equal ones, that of the lowest primitive
+ * number. So the answer depends on the primitives alone, not on the tree. False, leaving *hit alone,
+ * where there is none. Thread-safe, allocates nothing. */
+bool accel_nearest(const struct accel *accel, ray r, double t_min, double t_max, struct hit *hit);
+
+/* Whether anything is hit in t_min < t < t_max: the end is left out, so that a ray to a light stops
+ * before it. Thread-safe, allocates nothing. */
+bool accel_any(const struct accel *accel, ray r, double t_min, double t_max);
+
+/* The box around all bounded primitives; empty where there are none. World space. */
+box3 accel_bounds(const struct accel *accel);
+
+#endif

@@ -1,0 +1,40 @@
+/* The bounding volume hierarchy: what accel_build makes and the traversal reads.
+ *
+ *     nodes  [root][ -- ][ a ][ b ][a.0][a.1][b.0][b.1] ...    siblings adjacent, in one cache line
+ *                                |          \
+ *     refs   [ s3 s9 q0 ][ s1 s2 f4 ][ ... ]     a leaf is a run of refs, sorted by kind
+ *
+ * A box holds the boxes of its children, and a leaf's box all its primitives with room for the
+ * rounding of their hits; so culling by boxes never changes an answer. */
+#ifndef MONGE_ACCEL_BVH_H
+#define MONGE_ACCEL_BVH_H
+
+#include "accel/accel.h"
+
+#ifdef MONGE_HOSTILE
+enum { ACCEL_LEAF_SIZE = 1 };
+#else
+enum { ACCEL_LEAF_SIZE = 4 }; /* primitives of a leaf, at most */
+#endif
+
+/* No node is deeper below the root, whatever the scene, so a traversal needs a stack of this. */
+enum { ACCEL_MAX_DEPTH = 64 };
+
+struct bvh_node {
+    float bounds[6]; /* min x y z, max x y z; world space */
+    uint32_t first;  /* of a leaf: into refs; else the first child, and the second comes after it */
+    uint16_t count;  /* of a leaf: its primitives; else 0 */
+    uint16_t axis;   /* along which the first child comes before the second */
+};
+
+struct accel {
+    const struct primitives *primitives;
+    const struct bvh_node *nodes; /* nodes[0] is the root, nodes[1] is not used */
+    uint32_t node_count;          /* 0: nothing is bounded */
+    const primitive_ref *refs;
+    const primitive_ref *unbounded; /* tested for every ray */
+    uint32_t unbounded_count;
+    box3 bounds;
+};
+
+#endif

@@ -1,0 +1,122 @@
+/* Walks the hierarchy along a ray, near children first, with a stack of the far ones. */
+#include "accel/bvh.h"
+
+/* A ray as the boxes see it: t = (plane - org) * inverse. Origins moved by the rounding of that
+ * subtraction, each to the side that widens the box, so the test never misses a box that the exact
+ * ray meets (to the same end as Ize, "Robust BVH ray traversal", 2013). */
+struct box_ray {
+    double inverse[3];
+    double near_org[3], far_org[3];
+    size_t near_plane[3], far_plane[3]; /* which of a node's six planes come first and last */
+};
+
+/* What was found so far; a candidate must have t <= crossing.t. */
+struct search {
+    const struct primitives *primitives;
+    ray r;
+    double t_min;
+    struct hit best;
+};
+
+static struct box_ray box_ray_make(ray r) {
+    const double org[3] = {r.org.x, r.org.y, r.org.z}, dir[3] = {r.dir.x, r.dir.y, r.dir.z};
+    const double slack = vec3_max_abs(r.org) * 0x1p-49;
+    struct box_ray b;
+    for (int k = 0; k < 3; k++) {
+        /* Clamped, as 0 * infinity is not a number: a ray along the plane of a face. */
+        b.inverse[k] = fabs(dir[k]) > 1e-300 ? 1.0 / dir[k] : copysign(1e300, dir[k]);
+        const bool down = b.inverse[k] < 0.0;
+        b.near_plane[k] = (size_t)(down ? 3 + k : k);
+        b.far_plane[k] = (size_t)(down ? k : 3 + k);
+        b.near_org[k] = down ? org[k] - slack : org[k] + slack;
+        b.far_org[k] = down ? org[k] + slack : org[k] - slack;
+    }
+    return b;
+}
+
+static inline double larger(double a, double b) { return a > b ? a : b; }
+static inline double smaller(double a, double b) { return a < b ? a : b; }
+
+/* Where the ray enters the box, not before t_min; infinite if it misses it within t_min .. t_max.
+ * Written out by axis: the loop is not unrolled by -O2, and this is where the time goes. */
+static inline double box_enter(const struct bvh_node *node, const struct box_ray *b, double t_min, double t_max) {
+    const float *plane = node->bounds;
+    const double near_x = ((double)plane[b->near_plane[0]] - b->near_org[0]) * b->inverse[0];
+    const double near_y = ((double)plane[b->near_plane[1]] - b->near_org[1]) * b->inverse[1];
+    const double near_z = ((double)plane[b->near_plane[2]] - b->near_org[2]) * b->inverse[2];
+    const double far_x = ((double)plane[b->far_plane[0]] - b->far_org[0]) * b->inverse[0];
+    const double far_y = ((double)plane[b->far_plane[1]] - b->far_org[1]) * b->inverse[1];
+    const double far_z = ((double)plane[b->far_plane[2]] - b->far_org[2]) * b->inverse[2];
+    const double enter = larger(larger(near_x, near_y), larger(near_z, t_min));
+    const double leave = smaller(smaller(far_x, far_y), smaller(far_z, t_max));
+    return enter <= leave ? enter : INFINITY;
+}
+
+/* Tests a run of primitives; true ends an any-hit search, whose end is left out of its range. */
+static inline bool search_run(struct search *s, const primitive_ref *refs, uint32_t count, bool any) {
+    for (uint32_t i = 0; i < count; i++) {
+        struct crossing crossing;
+        if (!shape_first_crossing(s->primitives, refs[i], s->r, s->t_min, s->best.crossing.t, &crossing)) continue;
+        if (any) {
+            if (crossing.t < s->best.crossing.t) return true;
+            continue;
+        }
+        const uint32_t number = primitives_number(s->primitives, refs[i]);
+        if (crossing.t < s->best.crossing.t || number < s->best.number) s->best = (struct hit){number, crossing};
+    }
+    return false;
+}
+
+/* True when an any-hit search has found one; else s->best is the nearest. A box that begins just at
+ * the best t is entered: it may hold an equal hit of a lower number. */
+static inline bool search_all(struct search *s, const struct accel *accel, bool any) {
+    struct entry {
+        uint32_t node;
+        double enter;
+    } stack[ACCEL_MAX_DEPTH];
+    int depth = 0;
+
+    if (search_run(s, accel->unbounded, accel->unbounded_count, any)) return true;
+    if (!accel->node_count) return false;
+    const struct box_ray boxes = box_ray_make(s->r);
+    const struct bvh_node *node = accel->nodes;
+    if (!(box_enter(node, &boxes, s->t_min, s->best.crossing.t) < INFINITY)) return false;
+    for (;;) {
+        if (node->count) {
+            if (search_run(s, accel->refs + node->first, node->count, any)) return true;
+        } else {
+            const uint32_t child = node->first;
+            const double first = box_enter(&accel->nodes[child], &boxes, s->t_min, s->best.crossing.t);
+            const double second = box_enter(&accel->nodes[child + 1], &boxes, s->t_min, s->best.crossing.t);
+            const bool down = boxes.near_plane[node->axis] >= 3;
+            const double nearer = down ? second : first, farther = down ? first : second;
+            if (nearer < INFINITY) {
+                if (farther < INFINITY) stack[depth++] = (struct entry){child + !down, farther};
+                node = &accel->nodes[child + down];
+                continue;
+            }
+            if (farther < INFINITY) {
+                node = &accel->nodes[child + !down];
+                continue;
+            }
+        }
+        do {
+            if (!depth) return false;
+            depth--;
+        } while (!(stack[depth].enter <= s->best.crossing.t));
+        node = &accel->nodes[stack[depth].node];
+    }
+}
+
+bool accel_nearest(const struct accel *accel, ray r, double t_min, double t_max, struct hit *hit) {
+    struct search s = {accel->primitives, r, t_min, {UINT32_MAX, {.t = t_max}}};
+    search_all(&s, accel, false);
+    if (s.best.number == UINT32_MAX) return false;
+    *hit = s.best;
+    return true;
+}
+
+bool accel_any(const struct accel *accel, ray r, double t_min, double t_max) {
+    struct search s = {accel->primitives, r, t_min, {UINT32_MAX, {.t = t_max}}};
+    return search_all(&s, accel, true);
+}

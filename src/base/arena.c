@@ -1,0 +1,89 @@
+#include "base/arena.h"
+
+#include <stdalign.h>
+#include <stdarg.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#ifdef MONGE_HOSTILE
+enum { ARENA_BLOCK_SIZE = 64 };
+#else
+enum { ARENA_BLOCK_SIZE = 64 * 1024 };
+#endif
+
+struct arena_block {
+    struct arena_block *next;
+    size_t used, size; /* bytes of `data` */
+    alignas(max_align_t) unsigned char data[];
+};
+
+static _Noreturn void arena_full(struct arena *arena) {
+    if (arena->on_full) longjmp(*arena->on_full, 1);
+    fputs("out of memory\n", stderr);
+    abort();
+}
+
+static struct arena_block *arena_grow(struct arena *arena, size_t size) {
+    const size_t room = size > ARENA_BLOCK_SIZE ? size : ARENA_BLOCK_SIZE;
+    if (room > SIZE_MAX - sizeof(struct arena_block)) arena_full(arena);
+    const size_t bytes = sizeof(struct arena_block) + room;
+    if (arena->limit && (bytes > arena->limit || arena->total > arena->limit - bytes)) arena_full(arena);
+    struct arena_block *block = malloc(bytes);
+    if (!block) arena_full(arena);
+    *block = (struct arena_block){.next = arena->head, .size = room};
+    arena->head = block;
+    arena->total += bytes;
+    return block;
+}
+
+void *arena_alloc(struct arena *arena, size_t size) {
+    const size_t unit = alignof(max_align_t);
+    if (size > SIZE_MAX - unit) arena_full(arena);
+    const size_t rounded = (size + unit - 1) / unit * unit;
+    struct arena_block *block = arena->head;
+    if (!block || block->size - block->used < rounded) block = arena_grow(arena, rounded);
+    void *result = block->data + block->used;
+    block->used += rounded;
+    return memset(result, 0, size);
+}
+
+void *arena_array(struct arena *arena, size_t count, size_t size) {
+    if (size && count > SIZE_MAX / size) arena_full(arena);
+    return arena_alloc(arena, count * size);
+}
+
+char *arena_text(struct arena *arena, const char *text, size_t length) {
+    char *copy = arena_alloc(arena, length + 1);
+    if (length) memcpy(copy, text, length);
+    return copy;
+}
+
+char *arena_format(struct arena *arena, const char *format, ...) {
+    va_list args, again;
+    va_start(args, format);
+    va_copy(again, args);
+    const int length = vsnprintf(NULL, 0, format, args);
+    char *text = arena_alloc(arena, (size_t)length + 1);
+    vsnprintf(text, (size_t)length + 1, format, again);
+    va_end(again);
+    va_end(args);
+    return text;
+}
+
+struct arena_mark arena_mark(const struct arena *arena) {
+    return (struct arena_mark){arena->head, arena->head ? arena->head->used : 0};
+}
+
+void arena_release(struct arena *arena, struct arena_mark mark) {
+    while (arena->head != mark.block) {
+        struct arena_block *block = arena->head;
+        arena->head = block->next;
+        arena->total -= sizeof *block + block->size;
+        free(block);
+    }
+    if (arena->head) arena->head->used = mark.used;
+}
+
+void arena_free(struct arena *arena) { arena_release(arena, (struct arena_mark){NULL, 0}); }

@@ -1,0 +1,37 @@
+/* Memory by lifetime: everything allocated from an arena is freed with it, at once.
+ *
+ *     head -> [block: used |####......| ] -> [older block] -> ...
+ *
+ * An allocation never returns NULL. When memory runs out, or the arena would grow past its limit,
+ * arena_alloc leaves by longjmp to `on_full`, which the owner has set; without one it aborts. */
+#ifndef MONGE_BASE_ARENA_H
+#define MONGE_BASE_ARENA_H
+
+#include <setjmp.h>
+#include <stddef.h>
+
+struct arena_block;
+
+struct arena {
+    struct arena_block *head;
+    size_t total;     /* bytes taken from the system */
+    size_t limit;     /* 0: none */
+    jmp_buf *on_full; /* may be NULL */
+};
+
+/* An empty arena is a zeroed struct arena, with limit and on_full as wanted. */
+void *arena_alloc(struct arena *arena, size_t size);             /* zeroed, aligned for any type */
+void *arena_array(struct arena *arena, size_t count, size_t size); /* the same; count * size may not overflow */
+char *arena_text(struct arena *arena, const char *text, size_t length); /* a copy, with a final zero */
+char *arena_format(struct arena *arena, const char *format, ...) __attribute__((format(printf, 2, 3)));
+void arena_free(struct arena *arena); /* leaves it empty, ready for use */
+
+/* A mark to go back to: what was allocated since is freed. Marks nest. */
+struct arena_mark {
+    struct arena_block *block;
+    size_t used;
+};
+struct arena_mark arena_mark(const struct arena *arena);
+void arena_release(struct arena *arena, struct arena_mark mark);
+
+#endif

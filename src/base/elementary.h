@@ -1,0 +1,14 @@
+/* The transcendental functions that reach a pixel, with the same bits on every machine: SLEEF's
+ * deterministic cinz_ functions (error at most 1 ulp). libm's differ between versions and machines,
+ * so nothing under src/ calls them; sqrt, floor, fabs and fmod are exact and may be used freely. */
+#ifndef MONGE_BASE_ELEMENTARY_H
+#define MONGE_BASE_ELEMENTARY_H
+
+double elementary_pow(double base, double exponent);
+
+/* Of an angle in degrees, any finite one; exact at the multiples of 90 (and sine at 30, cosine at 60). */
+double elementary_sin_deg(double angle_deg);
+double elementary_cos_deg(double angle_deg);
+double elementary_tan_deg(double angle_deg);
+
+#endif

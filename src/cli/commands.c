@@ -1,0 +1,177 @@
+#include "cli/commands.h"
+
+#include <string.h>
+
+#include "cli/check.h"
+#include "cli/help.h"
+#include "cli/options.h"
+#include "cli/render.h"
+#include "cli/say.h"
+#include "cli/suggest.h"
+#include "monge.h"
+
+#define IN_NONE   (1u << COMMAND_NONE)
+#define IN_RENDER (1u << COMMAND_RENDER)
+#define IN_CHECK  (1u << COMMAND_CHECK)
+#define IN_HELP   (1u << COMMAND_HELP)
+
+/* The words of a choice stand in the order of the enum that they become. */
+const struct option_row OPTION_TABLE[OPTIONS] = {
+    [OPTION_OUTPUT] = {"output", 'o', VALUE_FILE, IN_RENDER, "FILE|DIR/|PATTERN", 0, 0,
+                       "where the picture goes: a file, a folder, a pattern with {name}, or -"},
+    [OPTION_SIZE] = {"size", 0, VALUE_SIZE, IN_RENDER, "WxH", 1, MONGE_MAX_SIDE,
+                     "size of the picture in pixels"},
+    [OPTION_SAMPLES] = {"samples", 0, VALUE_WHOLE, IN_RENDER, "N", 1, MONGE_MAX_SAMPLES, "samples a pixel"},
+    [OPTION_REGION] = {"region", 0, VALUE_REGION, IN_RENDER, "X,Y,W,H", 1, MONGE_MAX_SIDE,
+                       "only these pixels, from the top left corner"},
+    [OPTION_SHADING] = {"shading", 0, VALUE_CHOICE, IN_RENDER, "phong|diffuse|signature", 0, 0,
+                        "all of the light; ambient and diffuse alone; or flat colours, unlit"},
+    [OPTION_SHADOW] = {"shadow", 0, VALUE_FRACTION, IN_RENDER, "F", 0, 1,
+                       "the part of a light that reaches its shadow"},
+    [OPTION_NO_SHADOWS] = {"no-shadows", 0, VALUE_NONE, IN_RENDER, NULL, 0, 0, "the same as --shadow 1"},
+    [OPTION_DEPTH] = {"depth", 0, VALUE_WHOLE, IN_RENDER, "N", 1, MONGE_MAX_DEPTH,
+                      "depth of reflection and refraction; 1 has neither"},
+    [OPTION_BITS] = {"bits", 0, VALUE_CHOICE, IN_RENDER, "8|16", 0, 0, "bits a channel in the file"},
+    [OPTION_ENCODING] = {"encoding", 0, VALUE_CHOICE, IN_RENDER, "srgb|linear", 0, 0,
+                         "how colours are encoded in the file"},
+    [OPTION_THREADS] = {"threads", 0, VALUE_WHOLE, IN_RENDER, "N", 1, 1024,
+                        "threads to render with; all processors by default"},
+    [OPTION_STATS] = {"stats", 0, VALUE_FILE, IN_RENDER, "FILE|-", 0, 0,
+                      "write times, rays and memory as JSON"},
+    [OPTION_PROGRESS] = {"progress", 0, VALUE_CHOICE, IN_RENDER, "auto|always|never", 0, 0,
+                         "show a progress bar; auto: where standard error is a terminal"},
+    [OPTION_QUIET] = {"quiet", 'q', VALUE_NONE, IN_RENDER | IN_CHECK, NULL, 0, 0,
+                      "report nothing but what is wrong"},
+    [OPTION_MAN] = {"man", 0, VALUE_NONE, IN_HELP, NULL, 0, 0, "print the manual page, as roff"},
+    [OPTION_COMPLETION] = {"completion", 0, VALUE_CHOICE, IN_HELP, "bash|zsh|fish", 0, 0,
+                           "print the completion script of a shell"},
+    [OPTION_HELP] = {"help", 'h', VALUE_NONE, IN_NONE | IN_RENDER | IN_CHECK | IN_HELP, NULL, 0, 0,
+                     "show this help"},
+    [OPTION_VERSION] = {"version", 0, VALUE_NONE, IN_NONE, NULL, 0, 0, "show the version"},
+};
+
+const char *const STATUS_DOC[] = {
+    [STATUS_YES] = "all is well",
+    [STATUS_NO] = "a scene is wrong; the others have still been dealt with",
+    [STATUS_TROUBLE] = "trouble: wrong usage, a file that cannot be read or written, no memory",
+};
+
+const struct command_row COMMAND_TABLE[COMMANDS] = {
+    [COMMAND_NONE] =
+        {
+            .name = "monge",
+            .doc = "renders scenes that are data",
+            .text = {"A scene is a YAML file that describes a camera, lights, materials and transformed "
+                     "quadrics. "
+                     "Monge turns it into a PNG picture: the same bytes with any number of threads and on "
+                     "any machine."},
+        },
+    [COMMAND_RENDER] =
+        {
+            .name = "render",
+            .operands = "SCENE...",
+            .doc = "render scenes to PNG pictures",
+            .text =
+                {"Renders each scene, one after another, to NAME.png in the current folder; NAME is the "
+                 "scene's "
+                 "file name without .yaml or .yml. The options override what the scene says.",
+                 "-o FILE names the picture of a single scene. For several, -o DIR/ puts the pictures into a "
+                 "folder, which is made where it is missing, and in a pattern {name} stands for NAME. A "
+                 "picture is "
+                 "complete or absent: it is written under a temporary name and then renamed.",
+                 "The scene - is standard input; its picture goes to standard output unless -o says "
+                 "otherwise. "
+                 "-o - is standard output."},
+            .examples = {{"monge render king.yaml", "writes king.png"},
+                         {"monge render scenes/*.yaml -o pictures/ --size 320x240",
+                          "small pictures of many scenes"},
+                         {"monge render king.yaml -o 'draft-{name}.png' --shading diffuse --no-shadows",
+                          "a quick look, in draft-king.png"},
+                         {"generate | monge render - | display", "from a program to a program"}},
+            .needs_operand = true,
+            .run = render_command,
+        },
+    [COMMAND_CHECK] =
+        {
+            .name = "check",
+            .operands = "SCENE...",
+            .doc = "check scenes without rendering them",
+            .text = {"Reads each scene and reports everything that is wrong with it on standard error, each "
+                     "with its "
+                     "line and column; then `SCENE: ok`, or how many errors there are, on standard output.",
+                     "The scene - is standard input."},
+            .examples = {{"monge check --quiet scenes/*.yaml",
+                          "as a step of a build: silent where all is well"}},
+            .needs_operand = true,
+            .run = check_command,
+        },
+    [COMMAND_HELP] =
+        {
+            .name = "help",
+            .operands = "[COMMAND]",
+            .doc = "tell how to use monge or one of its commands",
+            .text = {"Without a command: what there is. The manual page and the completion scripts come from "
+                     "the same "
+                     "table as this text."},
+            .examples = {{"monge help render", "the options of render"},
+                         {"source <(monge help --completion bash)", "completion in this shell"}},
+            .run = help_command,
+        },
+};
+
+enum command_id command_find(const char *name) {
+    for (enum command_id c = COMMAND_NONE + 1; c < COMMANDS; c++)
+        if (strcmp(COMMAND_TABLE[c].name, name) == 0) return c;
+    return COMMAND_NONE;
+}
+
+static bool looks_like_a_scene(const char *word) {
+    const char *dot = strrchr(word, '.');
+    return dot && (strcmp(dot, ".yaml") == 0 || strcmp(dot, ".yml") == 0);
+}
+
+enum status command_unknown(const char *name) {
+    struct suggestion nearest = {.word = name};
+    for (enum command_id c = COMMAND_NONE + 1; c < COMMANDS; c++)
+        suggestion_try(&nearest, COMMAND_TABLE[c].name);
+    const char *best = suggestion_best(&nearest);
+    if (looks_like_a_scene(name))
+        say_usage(COMMAND_NONE, "no command `%s`; did you mean `monge render %s`?", name, name);
+    else if (best)
+        say_usage(COMMAND_NONE, "no command `%s`; did you mean `%s`?", name, best);
+    else
+        say_usage(COMMAND_NONE, "no command `%s`", name);
+    return STATUS_TROUBLE;
+}
+
+/* monge without a command. */
+static enum status run_alone(int argc, char **argv) {
+    struct arguments args;
+    if (!options_parse(COMMAND_NONE, argc, argv, &args)) return STATUS_TROUBLE;
+    if (args.option[OPTION_HELP].given)
+        help_print(stdout, COMMAND_NONE);
+    else if (args.option[OPTION_VERSION].given)
+        printf("monge %s\n", monge_version());
+    else {
+        help_print(stderr, COMMAND_NONE);
+        return STATUS_TROUBLE;
+    }
+    return STATUS_YES;
+}
+
+enum status command_run(int argc, char **argv) {
+    if (argc == 0 || argv[0][0] == '-') return run_alone(argc, argv);
+    const enum command_id command = command_find(argv[0]);
+    if (command == COMMAND_NONE) return command_unknown(argv[0]);
+    struct arguments args;
+    if (!options_parse(command, argc - 1, argv + 1, &args)) return STATUS_TROUBLE;
+    if (args.option[OPTION_HELP].given) {
+        help_print(stdout, command);
+        return STATUS_YES;
+    }
+    if (args.count == 0 && COMMAND_TABLE[command].needs_operand) {
+        say_usage(command, "%s: no scene given", argv[0]);
+        return STATUS_TROUBLE;
+    }
+    return COMMAND_TABLE[command].run(&args);
+}

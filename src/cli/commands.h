@@ -1,0 +1,90 @@
+/* The commands and their options as one table. Parsing, usage texts, the manual page and the
+ * completion scripts all come from it, so they cannot disagree. */
+#ifndef MONGE_CLI_COMMANDS_H
+#define MONGE_CLI_COMMANDS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/* As diff(1) has them; of several, the highest counts. */
+enum status { STATUS_YES, STATUS_NO /* a scene is wrong */, STATUS_TROUBLE /* usage, files, system */ };
+
+enum command_id { COMMAND_NONE /* monge itself */, COMMAND_RENDER, COMMAND_CHECK, COMMAND_HELP, COMMANDS };
+
+enum option_id {
+    OPTION_OUTPUT,
+    OPTION_SIZE,
+    OPTION_SAMPLES,
+    OPTION_REGION,
+    OPTION_SHADING,
+    OPTION_SHADOW,
+    OPTION_NO_SHADOWS,
+    OPTION_DEPTH,
+    OPTION_BITS,
+    OPTION_ENCODING,
+    OPTION_THREADS,
+    OPTION_STATS,
+    OPTION_PROGRESS,
+    OPTION_QUIET,
+    OPTION_MAN,
+    OPTION_COMPLETION,
+    OPTION_HELP,
+    OPTION_VERSION,
+    OPTIONS
+};
+
+enum value_kind {
+    VALUE_NONE,     /* a switch */
+    VALUE_FILE,     /* any text but the empty one */
+    VALUE_WHOLE,    /* low .. high */
+    VALUE_FRACTION, /* low .. high, with a decimal point */
+    VALUE_SIZE,     /* WxH, each low .. high */
+    VALUE_REGION,   /* X,Y,W,H: X and Y from 0, W and H low .. high */
+    VALUE_CHOICE,   /* one of the words of `value` */
+};
+
+struct option_row {
+    const char *name; /* without the dashes */
+    char letter;      /* 0: none */
+    enum value_kind kind;
+    unsigned commands; /* a set bit 1 << command_id for each that takes it */
+    const char *value; /* what help calls the value; the choices as a|b|c; NULL for a switch */
+    uint32_t low, high;
+    const char *doc; /* no capital, no full stop */
+};
+extern const struct option_row OPTION_TABLE[OPTIONS];
+
+struct arguments;
+
+struct example {
+    const char *line, *doc;
+};
+
+struct command_row {
+    const char *name;
+    const char *operands;       /* "SCENE..." */
+    const char *doc;            /* no capital, no full stop */
+    const char *text[8];        /* paragraphs, up to a NULL */
+    struct example examples[8]; /* up to a NULL */
+    bool needs_operand;
+    enum status (*run)(const struct arguments *args);
+};
+extern const struct command_row COMMAND_TABLE[COMMANDS];
+
+extern const char *const STATUS_DOC[STATUS_TROUBLE + 1];
+
+static inline bool command_takes(enum command_id command, enum option_id option) {
+    return OPTION_TABLE[option].commands >> command & 1;
+}
+
+/* COMMAND_NONE where there is none of that name. */
+enum command_id command_find(const char *name);
+
+/* Reports a name that is none, with the nearest; STATUS_TROUBLE. */
+enum status command_unknown(const char *name);
+
+/* Runs what the words after the program's name ask for; reorders argv. */
+enum status command_run(int argc, char **argv);
+
+#endif

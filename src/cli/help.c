@@ -1,0 +1,117 @@
+#include "cli/help.h"
+
+#include <string.h>
+
+#include "cli/completion.h"
+#include "cli/manual.h"
+#include "cli/say.h"
+#include "monge.h"
+
+enum { LINE_WIDTH = 80, DOC_COLUMN = 34 };
+
+/* Prints words from `column` on, where the cursor is, with new lines that begin at `indent`. */
+static void print_wrapped(FILE *out, const char *text, int column, int indent) {
+    for (bool first = true; *text; first = false) {
+        const int length = (int)strcspn(text, " ");
+        if (!first && column + 1 + length > LINE_WIDTH) {
+            fprintf(out, "\n%*s", indent, "");
+            column = indent;
+        } else if (!first) {
+            fputc(' ', out);
+            column++;
+        }
+        fprintf(out, "%.*s", length, text);
+        column += length;
+        text += length;
+        text += strspn(text, " ");
+    }
+    fputc('\n', out);
+}
+
+/* "  left    doc", the doc on a line of its own where `left` is long. */
+static void print_row(FILE *out, const char *left, const char *doc) {
+    const int width = (int)strlen(left);
+    const int gap = DOC_COLUMN - width;
+    if (gap >= 2)
+        fprintf(out, "%s%*s", left, gap, "");
+    else
+        fprintf(out, "%s\n%*s", left, DOC_COLUMN, "");
+    print_wrapped(out, doc, DOC_COLUMN, DOC_COLUMN);
+}
+
+char *help_option_doc(enum option_id option, char *text, size_t size) {
+    const struct option_row *row = &OPTION_TABLE[option];
+    if (row->kind == VALUE_WHOLE || row->kind == VALUE_FRACTION)
+        snprintf(text, size, "%s (%u to %u)", row->doc, row->low, row->high);
+    else
+        snprintf(text, size, "%s", row->doc);
+    return text;
+}
+
+static void print_options(FILE *out, enum command_id command) {
+    fputs("\noptions:\n", out);
+    for (enum option_id o = 0; o < OPTIONS; o++) {
+        if (!command_takes(command, o)) continue;
+        const struct option_row *row = &OPTION_TABLE[o];
+        char left[96], doc[160];
+        const char letter[] = {'-', row->letter, ',', '\0'};
+        snprintf(left, sizeof left, "  %3s --%s%s%s", row->letter ? letter : "", row->name,
+                 row->value ? " " : "", row->value ? row->value : "");
+        print_row(out, left, help_option_doc(o, doc, sizeof doc));
+    }
+}
+
+static void print_overview(FILE *out) {
+    fprintf(out, "Monge %s %s.\n\nusage: monge COMMAND [ARGUMENT...]\n\n", monge_version(),
+            COMMAND_TABLE[COMMAND_NONE].doc);
+    print_wrapped(out, COMMAND_TABLE[COMMAND_NONE].text[0], 0, 0);
+    fputs("\ncommands:\n", out);
+    for (enum command_id c = COMMAND_NONE + 1; c < COMMANDS; c++) {
+        char left[64];
+        snprintf(left, sizeof left, "  %s %s", COMMAND_TABLE[c].name, COMMAND_TABLE[c].operands);
+        print_row(out, left, COMMAND_TABLE[c].doc);
+    }
+    print_options(out, COMMAND_NONE);
+    fputs("\n`monge help COMMAND` tells more. Exit status:\n", out);
+    for (int s = 0; s <= STATUS_TROUBLE; s++) fprintf(out, "  %d  %s\n", s, STATUS_DOC[s]);
+}
+
+static void print_command(FILE *out, enum command_id command) {
+    const struct command_row *row = &COMMAND_TABLE[command];
+    fprintf(out, "usage: monge %s %s [OPTION...]\n", row->name, row->operands);
+    for (int i = 0; row->text[i]; i++) {
+        fputc('\n', out);
+        print_wrapped(out, row->text[i], 0, 0);
+    }
+    print_options(out, command);
+    fputs("\nexamples:\n", out);
+    for (int i = 0; row->examples[i].line; i++)
+        fprintf(out, "  %s\n      %s\n", row->examples[i].line, row->examples[i].doc);
+}
+
+void help_print(FILE *out, enum command_id command) {
+    if (command == COMMAND_NONE)
+        print_overview(out);
+    else
+        print_command(out, command);
+}
+
+enum status help_command(const struct arguments *args) {
+    const struct option_value *completion = &args->option[OPTION_COMPLETION];
+    if (args->count > 1) {
+        say_usage(COMMAND_HELP, "help: expected one command, found `%s` as well", args->operands[1]);
+        return STATUS_TROUBLE;
+    }
+    if (args->option[OPTION_MAN].given) {
+        manual_print(stdout);
+        return STATUS_YES;
+    }
+    if (completion->given) {
+        completion_print(stdout, (enum completion_shell)completion->choice);
+        return STATUS_YES;
+    }
+    if (args->count == 1 && command_find(args->operands[0]) == COMMAND_NONE)
+        return command_unknown(args->operands[0]);
+    help_print(stdout, args->count == 1 ? command_find(args->operands[0]) : COMMAND_NONE);
+    return STATUS_YES;
+}

@@ -1,0 +1,87 @@
+#include "cli/manual.h"
+
+#include <string.h>
+
+#include "cli/help.h"
+#include "monge.h"
+
+/* Text as roff shows it letter by letter. */
+static void print_roff(FILE *out, const char *text) {
+    if (*text == '.' || *text == '\'') fputs("\\&", out); /* else it would be a request */
+    for (; *text; text++) {
+        if (*text == '\\')
+            fputs("\\e", out);
+        else if (*text == '-')
+            fputs("\\-", out);
+        else if (*text == '\'')
+            fputs("\\(aq", out);
+        else if (*text == '`')
+            fputs("\\(ga", out);
+        else
+            fputc(*text, out);
+    }
+}
+
+static void print_line(FILE *out, const char *text) {
+    print_roff(out, text);
+    fputc('\n', out);
+}
+
+static void print_option(FILE *out, enum option_id option) {
+    const struct option_row *row = &OPTION_TABLE[option];
+    char doc[160];
+    fputs(".TP\n\\fB", out);
+    if (row->letter) fprintf(out, "\\-%c\\fR, \\fB", row->letter);
+    fputs("\\-\\-", out);
+    print_roff(out, row->name);
+    if (row->value) {
+        fputs("\\fR \\fI", out);
+        print_roff(out, row->value);
+    }
+    fputs("\\fR\n", out);
+    print_line(out, help_option_doc(option, doc, sizeof doc));
+}
+
+static void print_command(FILE *out, enum command_id command) {
+    const struct command_row *row = &COMMAND_TABLE[command];
+    fprintf(out, ".SS monge %s %s\n", row->name, row->operands);
+    for (int i = 0; row->text[i]; i++) {
+        fputs(i ? ".PP\n" : "", out);
+        print_line(out, row->text[i]);
+    }
+    for (enum option_id o = 0; o < OPTIONS; o++)
+        if (command_takes(command, o)) print_option(out, o);
+}
+
+static void print_examples(FILE *out) {
+    fputs(".SH EXAMPLES\n", out);
+    for (enum command_id c = COMMAND_NONE + 1; c < COMMANDS; c++) {
+        for (const struct example *e = COMMAND_TABLE[c].examples; e->line; e++) {
+            fputs(".TP\n.B ", out);
+            print_line(out, e->line);
+            print_line(out, e->doc);
+        }
+    }
+}
+
+void manual_print(FILE *out) {
+    fprintf(out, ".TH MONGE 1 \"\" \"Monge %s\" \"User Commands\"\n.SH NAME\nmonge \\- ", monge_version());
+    print_line(out, COMMAND_TABLE[COMMAND_NONE].doc);
+    fputs(".SH SYNOPSIS\n", out);
+    for (enum command_id c = COMMAND_NONE + 1; c < COMMANDS; c++)
+        fprintf(out, "%s.B monge %s\n.RI [ OPTION ...]\\&\n%s\n", c > 1 ? ".br\n" : "", COMMAND_TABLE[c].name,
+                COMMAND_TABLE[c].operands);
+    fputs(".SH DESCRIPTION\n", out);
+    print_line(out, COMMAND_TABLE[COMMAND_NONE].text[0]);
+    fputs(".SH COMMANDS\n", out);
+    for (enum command_id c = COMMAND_NONE + 1; c < COMMANDS; c++) print_command(out, c);
+    fputs(".SH OPTIONS\n", out);
+    for (enum option_id o = 0; o < OPTIONS; o++)
+        if (command_takes(COMMAND_NONE, o)) print_option(out, o);
+    fputs(".SH EXIT STATUS\n", out);
+    for (int s = 0; s <= STATUS_TROUBLE; s++) {
+        fprintf(out, ".TP\n%d\n", s);
+        print_line(out, STATUS_DOC[s]);
+    }
+    print_examples(out);
+}

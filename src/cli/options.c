@@ -1,0 +1,199 @@
+#include "cli/options.h"
+
+#include <ctype.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/say.h"
+#include "cli/suggest.h"
+
+/* ---- Values ---- */
+
+/* A decimal number low .. high, digits alone. Returns what follows it, NULL where there is none. */
+static const char *read_whole(const char *text, uint32_t low, uint32_t high, uint32_t *number) {
+    uint64_t value = 0;
+    const char *at = text;
+    for (; isdigit((unsigned char)*at); at++) {
+        value = value * 10 + (uint64_t)(*at - '0');
+        if (value > UINT32_MAX) return NULL;
+    }
+    if (at == text || value < low || value > high) return NULL;
+    *number = (uint32_t)value;
+    return at;
+}
+
+static bool read_fraction(const char *text, double low, double high, double *number) {
+    char *end = NULL;
+    if (!*text || text[strspn(text, "0123456789.+-eE")]) return false; /* strtod takes more: nan, 0x1p3 */
+    const double value = strtod(text, &end);
+    if (*end || !(value >= low && value <= high)) return false;
+    *number = value;
+    return true;
+}
+
+static bool read_size(const struct option_row *row, const char *text, uint32_t number[2]) {
+    text = read_whole(text, row->low, row->high, &number[0]);
+    if (!text || *text != 'x') return false;
+    text = read_whole(text + 1, row->low, row->high, &number[1]);
+    return text && !*text;
+}
+
+static bool read_region(const struct option_row *row, const char *text, uint32_t number[4]) {
+    for (int i = 0; i < 4; i++) {
+        if (i > 0 && *text++ != ',') return false;
+        text = read_whole(text, i < 2 ? 0 : row->low, row->high, &number[i]);
+        if (!text) return false;
+    }
+    return !*text;
+}
+
+static bool read_choice(const char *choices, const char *text, unsigned *choice) {
+    const size_t length = strlen(text);
+    for (*choice = 0; choices; ++*choice) {
+        if (strcspn(choices, "|") == length && strncmp(choices, text, length) == 0) return true;
+        choices = strchr(choices, '|');
+        if (choices) choices++;
+    }
+    return false;
+}
+
+static bool read_value(const struct option_row *row, const char *text, struct option_value *value) {
+    value->text = text;
+    switch (row->kind) {
+    case VALUE_NONE: return true;
+    case VALUE_FILE: return *text;
+    case VALUE_WHOLE: {
+        const char *end = read_whole(text, row->low, row->high, &value->number[0]);
+        return end && !*end;
+    }
+    case VALUE_FRACTION: return read_fraction(text, row->low, row->high, &value->fraction);
+    case VALUE_SIZE: return read_size(row, text, value->number);
+    case VALUE_REGION: return read_region(row, text, value->number);
+    case VALUE_CHOICE: return read_choice(row->value, text, &value->choice);
+    }
+    return false;
+}
+
+/* "phong, diffuse or signature" */
+static void describe_choice(const char *choices, char *text, size_t size) {
+    *text = '\0';
+    while (choices) {
+        const int length = (int)strcspn(choices, "|");
+        const char *next = choices[length] ? choices + length + 1 : NULL;
+        const char *link = !next ? "" : strchr(next, '|') ? ", " : " or ";
+        const size_t used = strlen(text);
+        snprintf(text + used, size - used, "%.*s%s", length, choices, link);
+        choices = next;
+    }
+}
+
+static void describe_value(const struct option_row *row, char *text, size_t size) {
+    switch (row->kind) {
+    case VALUE_NONE: snprintf(text, size, "nothing"); break;
+    case VALUE_FILE: snprintf(text, size, "%s", row->value); break;
+    case VALUE_WHOLE: snprintf(text, size, "a whole number from %u to %u", row->low, row->high); break;
+    case VALUE_FRACTION: snprintf(text, size, "a number from %u to %u", row->low, row->high); break;
+    case VALUE_SIZE: snprintf(text, size, "WxH like 640x480, each from %u to %u", row->low, row->high); break;
+    case VALUE_REGION: snprintf(text, size, "X,Y,W,H like 0,0,320,240, W and H from %u", row->low); break;
+    case VALUE_CHOICE: describe_choice(row->value, text, size); break;
+    }
+}
+
+/* `shown` is the option as the user wrote it, --size or -o. A NULL text is a value that is missing. */
+static bool set_value(struct arguments *args, enum option_id option, const char *shown, const char *text) {
+    const struct option_row *row = &OPTION_TABLE[option];
+    char expected[128];
+    if (text && read_value(row, text, &args->option[option])) return args->option[option].given = true;
+    describe_value(row, expected, sizeof expected);
+    if (text)
+        say_usage(args->command, "%s: expected %s, found `%s`", shown, expected, text);
+    else
+        say_usage(args->command, "%s: expected %s, found nothing", shown, expected);
+    return false;
+}
+
+/* ---- Options ---- */
+
+/* The words that are left. */
+struct words {
+    int count;
+    char **next;
+};
+
+static const char *take_word(struct words *words) {
+    if (words->count == 0) return NULL;
+    words->count--;
+    return *words->next++;
+}
+
+/* Reports a long option, `length` bytes of name, that the command does not have. */
+static bool unknown_long(enum command_id command, const char *name, size_t length) {
+    char word[64];
+    snprintf(word, sizeof word, "%.*s", (int)length, name);
+    struct suggestion nearest = {.word = word};
+    for (enum option_id o = 0; o < OPTIONS; o++)
+        if (command_takes(command, o)) suggestion_try(&nearest, OPTION_TABLE[o].name);
+    const char *best = suggestion_best(&nearest);
+    if (best)
+        say_usage(command, "no option `--%s`; did you mean `--%s`?", word, best);
+    else
+        say_usage(command, "no option `--%s`", word);
+    return false;
+}
+
+/* --name, --name VALUE or --name=VALUE; `word` begins after the dashes. */
+static bool parse_long(struct arguments *args, const char *word, struct words *rest) {
+    const size_t length = strcspn(word, "=");
+    enum option_id o = 0;
+    while (o < OPTIONS &&
+           !(command_takes(args->command, o) && strncmp(OPTION_TABLE[o].name, word, length) == 0 &&
+             !OPTION_TABLE[o].name[length]))
+        o++;
+    if (o == OPTIONS) return unknown_long(args->command, word, length);
+    char shown[64];
+    snprintf(shown, sizeof shown, "--%s", OPTION_TABLE[o].name);
+    const char *value = word[length] ? word + length + 1 : NULL;
+    if (OPTION_TABLE[o].kind != VALUE_NONE) return set_value(args, o, shown, value ? value : take_word(rest));
+    if (!value) return args->option[o].given = true;
+    say_usage(args->command, "%s takes no value, found `%s`", shown, value);
+    return false;
+}
+
+/* -q, -o VALUE, -oVALUE, or several together; `letters` begins after the dash. */
+static bool parse_letters(struct arguments *args, const char *letters, struct words *rest) {
+    for (; *letters; letters++) {
+        enum option_id o = 0;
+        while (o < OPTIONS && !(command_takes(args->command, o) && OPTION_TABLE[o].letter == *letters)) o++;
+        const char shown[3] = {'-', *letters, '\0'};
+        if (o == OPTIONS) {
+            say_usage(args->command, "no option `%s`", shown);
+            return false;
+        }
+        if (OPTION_TABLE[o].kind != VALUE_NONE)
+            return set_value(args, o, shown, letters[1] ? letters + 1 : take_word(rest));
+        args->option[o].given = true;
+    }
+    return true;
+}
+
+bool options_parse(enum command_id command, int argc, char **argv, struct arguments *args) {
+    *args = (struct arguments){.command = command, .operands = argv};
+    struct words rest = {argc, argv};
+    bool options_end = false;
+    while (rest.count > 0 && !args->option[OPTION_HELP].given) {
+        char *word = *rest.next;
+        take_word(&rest);
+        bool good = true;
+        if (options_end || word[0] != '-' || !word[1])
+            argv[args->count++] = word;
+        else if (strcmp(word, "--") == 0)
+            options_end = true;
+        else if (word[1] == '-')
+            good = parse_long(args, word + 2, &rest);
+        else
+            good = parse_letters(args, word + 1, &rest);
+        if (!good) return false;
+    }
+    return true;
+}

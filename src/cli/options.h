@@ -1,0 +1,27 @@
+/* From the words of a command line to the values of its options. */
+#ifndef MONGE_CLI_OPTIONS_H
+#define MONGE_CLI_OPTIONS_H
+
+#include "cli/commands.h"
+
+struct option_value {
+    bool given;
+    const char *text;   /* as the user wrote it; NULL for a switch */
+    uint32_t number[4]; /* of a whole number, a size or a region, in the order of writing */
+    double fraction;
+    unsigned choice; /* which of the words of the table, from 0 */
+};
+
+struct arguments {
+    enum command_id command;
+    struct option_value option[OPTIONS]; /* given twice: the last one */
+    char **operands;                     /* within argv */
+    size_t count;
+};
+
+/* Parses the words after the command. Options and operands may be mixed; `--` ends the options; `-`
+ * is an operand; --help ends it all. Moves the operands to the front of argv. False, with the reason
+ * on stderr, when an option is unknown or its value is not what the table asks for. */
+bool options_parse(enum command_id command, int argc, char **argv, struct arguments *args);
+
+#endif

@@ -1,0 +1,78 @@
+#include "cli/say.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static char *format_text(const char *format, va_list args) {
+    char *text = NULL;
+    if (vasprintf(&text, format, args) >= 0) return text;
+    fputs("monge: out of memory\n", stderr);
+    exit(STATUS_TROUBLE);
+}
+
+static void print_line(const char *prefix, const char *format, va_list args) {
+    char *text = format_text(format, args);
+    for (char *c = text; *c; c++)
+        if ((unsigned char)*c < 0x20 || *c == 0x7f) *c = '?';
+    fprintf(stderr, "%s%s\n", prefix, text);
+    free(text);
+}
+
+void say_error(const char *format, ...) {
+    va_list args;
+    va_start(args, format);
+    print_line("monge: ", format, args);
+    va_end(args);
+}
+
+void say_usage(enum command_id command, const char *format, ...) {
+    va_list args;
+    va_start(args, format);
+    print_line("monge: ", format, args);
+    va_end(args);
+    if (command == COMMAND_NONE)
+        fputs("see `monge help`\n", stderr);
+    else
+        fprintf(stderr, "see `monge help %s`\n", COMMAND_TABLE[command].name);
+}
+
+void say_note(const char *format, ...) {
+    va_list args;
+    va_start(args, format);
+    print_line("", format, args);
+    va_end(args);
+}
+
+char *say_text(const char *format, ...) {
+    va_list args;
+    va_start(args, format);
+    char *text = format_text(format, args);
+    va_end(args);
+    return text;
+}
+
+/* open takes the lowest number that is free, the missing stream's; the wrong mode makes each use of it fail. */
+void streams_open(void) {
+    for (int fd = 0; fd <= 2; fd++)
+        if (fcntl(fd, F_GETFD) < 0) (void)!open("/dev/null", fd == 0 ? O_WRONLY : O_RDONLY);
+}
+
+static int output_error; /* of stdout: the first errno, which later calls on a stream that has failed lose */
+
+void streams_flush(void) {
+    errno = 0;
+    if (fflush(stdout) == 0 && !ferror(stdout)) return;
+    if (!output_error) output_error = errno ? errno : EIO;
+}
+
+enum status streams_close(enum status status) {
+    streams_flush();
+    if (!output_error || status == STATUS_TROUBLE) return status;
+    say_error("cannot write standard output: %s", strerror(output_error));
+    return STATUS_TROUBLE;
+}

@@ -1,0 +1,27 @@
+/* What the program itself has to say, and the state of its standard streams. */
+#ifndef MONGE_CLI_SAY_H
+#define MONGE_CLI_SAY_H
+
+#include "cli/commands.h"
+
+/* "monge: ..." as a line on stderr, with control characters, which may come from file names, made harmless. */
+void say_error(const char *format, ...) __attribute__((format(printf, 1, 2)));
+
+/* The same, and then where to read about the command. */
+void say_usage(enum command_id command, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/* A line on stderr, like say_error's but without "monge: ". */
+void say_note(const char *format, ...) __attribute__((format(printf, 1, 2)));
+
+/* As asprintf; ends the program where there is no memory. To be freed. */
+char *say_text(const char *format, ...) __attribute__((format(printf, 1, 2)));
+
+/* Before all else: a stream that was closed must not become a file that is opened later. */
+void streams_open(void);
+
+void streams_flush(void); /* of stdout, so that its lines keep their place among those of stderr */
+
+/* At the end: the exit status, STATUS_TROUBLE where stdout did not take everything. */
+enum status streams_close(enum status status);
+
+#endif

@@ -1,0 +1,32 @@
+/* A file that appears complete under its name or not at all.
+ *
+ *     struct replacement file;
+ *     if (!replace_begin(&file, "king.png")) return false;      .king.png.h3k9zq.tmp appears
+ *     fputs("...", file.stream);
+ *     return replace_commit(&file);                             synced, renamed to king.png
+ *
+ * A process that is killed in between leaves at most the temporary file. */
+#ifndef MONGE_IMAGE_REPLACE_H
+#define MONGE_IMAGE_REPLACE_H
+
+#include <stdbool.h>
+#include <stdio.h>
+
+struct replacement {
+    FILE *stream;    /* to write to */
+    char *target;    /* owned; symbolic links followed; NULL where stream writes to it directly */
+    char *temporary; /* owned; beside the target; NULL where stream writes directly */
+};
+
+/* Opens a temporary file in the folder of `path`, with the permissions of the file there or else
+ * those of any new file. What is there but is no regular file (a pipe, a device) is opened itself;
+ * "-" is stdout. False: errno says why, nothing is left behind. */
+bool replace_begin(struct replacement *file, const char *path);
+
+/* Ends the writing: puts the file in its place. False, with errno, when anything since
+ * replace_begin has failed: nothing is left behind. Either way *file is done with. */
+bool replace_commit(struct replacement *file);
+
+void replace_abandon(struct replacement *file); /* keeps errno */
+
+#endif

@@ -1,0 +1,129 @@
+#include <ctype.h>
+#include <string.h>
+#include <strings.h>
+
+#include "base/elementary.h"
+#include "lang/checker.h"
+#include "lang/spelling.h"
+
+/* IEC 61966-2-1. */
+static double linear_from_srgb(double c) {
+    return c <= 0.04045 ? c / 12.92 : elementary_pow((c + 0.055) / 1.055, 2.4);
+}
+
+static vec3 linear_from_bytes(const unsigned char rgb[3]) {
+    return (vec3){linear_from_srgb(rgb[0] / 255.0), linear_from_srgb(rgb[1] / 255.0), linear_from_srgb(rgb[2] / 255.0)};
+}
+
+static int hex_digit(char c) {
+    if (c >= '0' && c <= '9') return c - '0';
+    if (c >= 'a' && c <= 'f') return c - 'a' + 10;
+    if (c >= 'A' && c <= 'F') return c - 'A' + 10;
+    return -1;
+}
+
+/* #rgb or #rrggbb, without regard to letter case. */
+static bool parse_hex(const char *text, unsigned char rgb[3]) {
+    const size_t digits = strlen(text) - 1;
+    if (digits != 3 && digits != 6) return false;
+    for (size_t i = 0; i < digits; i++)
+        if (hex_digit(text[i + 1]) < 0) return false;
+    for (size_t i = 0; i < 3; i++) {
+        const char *c = text + 1 + i * digits / 3;
+        rgb[i] = (unsigned char)(digits == 3 ? 17 * hex_digit(c[0]) : 16 * hex_digit(c[0]) + hex_digit(c[1]));
+    }
+    return true;
+}
+
+static bool check_color_text(struct checker *ck, const struct grammar_key *key, const struct node *node, vec3 *out) {
+    const char *text = node_resolve(node)->text;
+    unsigned char rgb[3];
+    if (text[0] == '#') {
+        if (parse_hex(text, rgb)) {
+            *out = linear_from_bytes(rgb);
+            return true;
+        }
+        diag_error(ck->diag, node->span, "`%s`: a colour in hexadecimal has 3 or 6 digits 0-9 a-f, found `%s`", key->name, text);
+        return false;
+    }
+    for (int i = 0; i < grammar_color_count; i++)
+        if (strcasecmp(text, grammar_colors[i].name) == 0) {
+            *out = linear_from_bytes(grammar_colors[i].rgb);
+            return true;
+        }
+    struct spelling s = spelling_begin(text);
+    for (int i = 0; i < grammar_color_count; i++) spelling_offer(&s, grammar_colors[i].name);
+    struct diagnostic *d = diag_error(ck->diag, node->span, "`%s`: no colour is named `%s`", key->name, text);
+    if (s.best) diag_help(ck->diag, d, "did you mean `%s`?", s.best);
+    else diag_help(ck->diag, d, "a colour is [r, g, b], \"#rrggbb\" or a CSS name");
+    return false;
+}
+
+/* Bytes are what people paste: [255, 128, 0]. */
+static bool looks_like_bytes(const double v[3]) {
+    const double most = v[0] > v[1] ? (v[0] > v[2] ? v[0] : v[2]) : (v[1] > v[2] ? v[1] : v[2]);
+    bool whole = most > 2.0 && most <= 255.0;
+    for (int i = 0; i < 3; i++) whole &= v[i] >= 0.0 && v[i] == floor(v[i]);
+    return whole;
+}
+
+static bool check_color_range(struct checker *ck, const struct grammar_key *key, const struct node *node, const double v[3]) {
+    const bool over = key->has_max && !(v[0] <= key->max && v[1] <= key->max && v[2] <= key->max);
+    if (over && looks_like_bytes(v)) {
+        struct diagnostic *d = diag_error(ck->diag, node->span, "`%s`: [r, g, b] is linear, each 0 to 1", key->name);
+        diag_help(ck->diag, d, "did you mean \"#%02x%02x%02x\"?", (unsigned)v[0], (unsigned)v[1], (unsigned)v[2]);
+        return false;
+    }
+    if (!(v[0] >= 0.0 && v[1] >= 0.0 && v[2] >= 0.0)) {
+        diag_error(ck->diag, node->span, "`%s`: a colour has no negative parts", key->name);
+        return false;
+    }
+    if (over && key->type == GRAMMAR_AMOUNT) {
+        diag_error(ck->diag, node->span, "`%s`: must be 0 to 1", key->name);
+        return false;
+    }
+    if (over) diag_warning(ck->diag, node->span, "`%s`: gives back more light than it gets: a part is over 1", key->name);
+    return true;
+}
+
+static bool check_color_list(struct checker *ck, const struct grammar_key *key, const struct node *node, vec3 *out) {
+    const struct node *n = node_resolve(node);
+    struct grammar_key component = *key;
+    component.type = GRAMMAR_NUMBER;
+    component.has_min = component.has_max = false;
+    double v[3];
+    if (n->count != 3) {
+        diag_error(ck->diag, node->span, "`%s`: expected [r, g, b], found %u number%s", key->name, (unsigned)n->count,
+                   n->count == 1 ? "" : "s");
+        return false;
+    }
+    bool ok = true;
+    int i = 0;
+    for (const struct node *item = n->first; item; item = item->next) ok &= check_number(ck, &component, item, &v[i++]);
+    if (!ok || !check_color_range(ck, key, node, v)) return false;
+    *out = (vec3){v[0], v[1], v[2]};
+    return true;
+}
+
+static bool starts_like_number(const char *text) {
+    return isdigit((unsigned char)text[strspn(text, "+-.")]);
+}
+
+bool check_color(struct checker *ck, const struct grammar_key *key, const struct node *node, vec3 *out) {
+    const struct node *n = node_resolve(node);
+    if (!check_count(ck, node)) return false;
+    if (n->kind == NODE_SEQUENCE) return check_color_list(ck, key, node, out);
+    const bool number = n->kind == NODE_SCALAR && starts_like_number(n->text);
+    if (number && key->type == GRAMMAR_AMOUNT) {
+        double all;
+        if (!check_number(ck, key, node, &all)) return false;
+        *out = vec3_all(all);
+        return true;
+    }
+    if (n->kind == NODE_SCALAR && n->count > 0 && !number) return check_color_text(ck, key, node, out);
+    struct diagnostic *d = diag_error(ck->diag, node->span, "`%s`: expected %s, found %s", key->name,
+                                      key->type == GRAMMAR_AMOUNT ? "a number or a colour" : "a colour", check_found(ck, node));
+    if (number && strlen(n->text) < 20) diag_help(ck->diag, d, "for a grey write [%s, %s, %s]", n->text, n->text, n->text);
+    else diag_help(ck->diag, d, "a colour is [r, g, b], \"#rrggbb\" or a CSS name");
+    return false;
+}

@@ -1,0 +1,51 @@
+#include "lang/description.h"
+
+#include <string.h>
+
+bool object_has(const struct object_value *object, int key) { return object->fields[key] != NULL; }
+
+double object_number(const struct object_value *object, int key) {
+    return object->fields[key] ? object->fields[key]->number : object->kind->keys[key].value[0];
+}
+
+int object_choice(const struct object_value *object, int key) {
+    return object->fields[key] ? object->fields[key]->choice : (int)object->kind->keys[key].value[0];
+}
+
+vec3 object_vec3(const struct object_value *object, int key) {
+    const double *otherwise = object->kind->keys[key].value;
+    const struct value *value = object->fields[key];
+    return value && !value->is_object ? value->vector : (vec3){otherwise[0], otherwise[1], otherwise[2]};
+}
+
+const char *object_text(const struct object_value *object, int key) {
+    return object->fields[key] ? object->fields[key]->text : NULL;
+}
+
+const affine *object_matrix(const struct object_value *object, int key) {
+    return object->fields[key] ? object->fields[key]->matrix : NULL;
+}
+
+struct object_value *object_object(const struct object_value *object, int key) {
+    return object->fields[key] && object->fields[key]->is_object ? object->fields[key]->object : NULL;
+}
+
+struct object_list object_list(const struct object_value *object, int key) {
+    return object->fields[key] ? object->fields[key]->list : (struct object_list){NULL, 0};
+}
+
+struct span object_span(const struct object_value *object, int key) {
+    return object->fields[key] ? object->fields[key]->span : object->span;
+}
+
+int object_alternative(const struct object_value *object) {
+    for (int i = 0; i < object->kind->key_count; i++)
+        if (object->kind->keys[i].alternative && object->fields[i]) return i;
+    return -1;
+}
+
+int grammar_find_key(const struct grammar_kind *kind, const char *name) {
+    for (int i = 0; i < kind->key_count; i++)
+        if (strcmp(kind->keys[i].name, name) == 0) return i;
+    return -1;
+}

@@ -1,0 +1,63 @@
+/* A scene file, checked and evaluated: objects of the grammar's kinds with typed values, each with the
+ * place it was written at. A stage after this one never sees YAML.
+ *
+ *     object_value (kind sphere)
+ *       fields[KEY_SPHERE_CENTER] -> NULL: not given, the accessors return the default
+ *       fields[KEY_SPHERE_RADIUS] -> value {number 2, span 4:13}
+ */
+#ifndef MONGE_LANG_DESCRIPTION_H
+#define MONGE_LANG_DESCRIPTION_H
+
+#include "base/affine.h"
+#include "base/diag.h"
+#include "grammar_tables.h"
+#include "lang/grammar.h"
+
+struct object_value;
+
+struct object_list {
+    struct object_value **items;
+    uint32_t count;
+};
+
+struct value {
+    struct span span; /* of the value, not the key */
+    union {
+        double number;               /* number, integer */
+        int choice;                  /* choice, boolean */
+        vec3 vector;                 /* point, direction, factors, color (linear), amount, size (x, y) */
+        const affine *matrix;        /* matrix */
+        const char *text;            /* text */
+        struct object_value *object; /* object; color or amount where is_object */
+        struct object_list list;     /* list, map */
+    };
+    bool is_object; /* a mapping stands where a colour might */
+};
+
+struct object_value {
+    const struct grammar_kind *kind;
+    struct span span;
+    const char *name;      /* of an entry of a map, else NULL */
+    uint32_t definition;   /* of an entry of a map: its position there, from 0 */
+    bool failed;           /* some key of it was reported as wrong; its field is NULL */
+    struct value **fields; /* kind->key_count; NULL where not given */
+};
+
+/* `key` is one of the generated KEY_ numbers of the object's kind, of the type that the name says.
+ * Where the key is not given: the grammar's default, or zero where it has none. */
+bool object_has(const struct object_value *object, int key);
+double object_number(const struct object_value *object, int key); /* also integers */
+int object_choice(const struct object_value *object, int key);    /* also booleans: 0 or 1 */
+vec3 object_vec3(const struct object_value *object, int key);
+const char *object_text(const struct object_value *object, int key);            /* NULL: not given */
+const affine *object_matrix(const struct object_value *object, int key);        /* NULL: not given */
+struct object_value *object_object(const struct object_value *object, int key); /* NULL: not given, or not a mapping */
+struct object_list object_list(const struct object_value *object, int key);
+
+/* Of the value; of the object where it is not given. */
+struct span object_span(const struct object_value *object, int key);
+
+/* The first alternative that is given (a shape of a node, a step of a transform); -1: none. */
+int object_alternative(const struct object_value *object);
+
+#endif

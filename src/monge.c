@@ -1,0 +1,201 @@
+/* The library's face: ties the stations together. */
+#include "monge.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "accel/accel.h"
+#include "image/png.h"
+#include "lang/file.h"
+#include "lang/lang.h"
+#include "render/render.h"
+#include "scene/scene.h"
+
+struct monge_diagnostics {
+    struct diagnostics list;
+};
+
+struct monge_scene {
+    struct arena arena; /* of the scene and its hierarchy */
+    struct scene scene;
+    struct accel *accel; /* NULL: not prepared */
+};
+
+const char *monge_version(void) { return MONGE_VERSION; }
+
+/* ---- Diagnostics ---- */
+
+struct monge_diagnostics *monge_diagnostics_new(void) { return calloc(1, sizeof(struct monge_diagnostics)); }
+
+void monge_diagnostics_free(struct monge_diagnostics *diag) {
+    if (diag) diag_free(&diag->list);
+    free(diag);
+}
+
+unsigned monge_diagnostics_errors(const struct monge_diagnostics *diag) { return diag->list.errors; }
+unsigned monge_diagnostics_warnings(const struct monge_diagnostics *diag) { return diag->list.warnings; }
+unsigned monge_diagnostics_failures(const struct monge_diagnostics *diag) { return diag->list.failures; }
+void monge_diagnostics_print(const struct monge_diagnostics *diag, FILE *out) { diag_print(&diag->list, out); }
+
+/* ---- Loading ---- */
+
+static const struct monge_limits default_limits = {
+    .file_bytes = (size_t)1 << 30, .memory_bytes = (size_t)8 << 30, .values = 100 * 1000 * 1000, .nesting = 100};
+
+static struct monge_limits effective_limits(const struct monge_limits *given) {
+    struct monge_limits limits = given ? *given : default_limits;
+    if (!limits.file_bytes) limits.file_bytes = default_limits.file_bytes;
+    if (!limits.memory_bytes) limits.memory_bytes = default_limits.memory_bytes;
+    if (!limits.values) limits.values = default_limits.values;
+    if (!limits.nesting) limits.nesting = default_limits.nesting;
+    return limits;
+}
+
+/* One load. The description and the text it points into die with it; the scene stays. */
+struct load {
+    struct monge_limits limits;
+    struct diagnostics *diag;
+    const char *name, *text; /* text NULL: the file `name` */
+    size_t size;
+    struct arena description;
+    struct monge_scene *scene;
+};
+
+static bool load_scene(struct load *load) {
+    struct monge_scene *scene = load->scene;
+    const struct lang_limits limits = {load->limits.nesting, load->limits.values};
+    struct diagnostics *diag = load->diag;
+    const unsigned errors = diag->errors;
+    const struct source *source = load->text ? file_from_memory(&load->description, load->name, load->text, load->size)
+                                             : file_read(&load->description, diag, load->name, load->limits.file_bytes);
+    if (!source) return false;
+    const struct object_value *file = lang_read(&load->description, diag, source, &limits);
+    return file && scene_build(&scene->arena, diag, file, &scene->scene) && diag->errors == errors;
+}
+
+/* Loads with arenas that come back here when they are full. */
+static bool load_guarded(struct load *load) {
+    jmp_buf full;
+    load->description.on_full = load->scene->arena.on_full = &full;
+    load->description.limit = load->scene->arena.limit = load->limits.memory_bytes;
+    if (setjmp(full) == 0) return load_scene(load);
+    diag_failure(load->diag, "%s: takes more memory than there is, or than %zu bytes (the limit `memory_bytes`)",
+                 load->name, load->limits.memory_bytes);
+    return false;
+}
+
+static struct monge_scene *run_load(struct load *load) {
+    load->scene = calloc(1, sizeof *load->scene);
+    if (!load->scene) {
+        diag_failure(load->diag, "%s: out of memory", load->name);
+        return NULL;
+    }
+    const bool ok = load_guarded(load);
+    arena_free(&load->description);
+    load->scene->arena.on_full = NULL;
+    load->scene->arena.limit = 0;
+    if (ok) return load->scene;
+    monge_scene_free(load->scene);
+    return NULL;
+}
+
+struct monge_scene *monge_load_file(const char *path, const struct monge_limits *limits, struct monge_diagnostics *diag) {
+    struct load load = {.limits = effective_limits(limits), .diag = &diag->list, .name = path};
+    return run_load(&load);
+}
+
+struct monge_scene *monge_load_memory(const char *name, const char *text, size_t size, const struct monge_limits *limits,
+                                      struct monge_diagnostics *diag) {
+    struct load load = {.limits = effective_limits(limits), .diag = &diag->list, .name = name, .text = text, .size = size};
+    return run_load(&load);
+}
+
+void monge_scene_free(struct monge_scene *scene) {
+    if (scene) arena_free(&scene->arena);
+    free(scene);
+}
+
+size_t monge_scene_primitives(const struct monge_scene *scene) { return scene->scene.primitives.count; }
+
+bool monge_scene_prepare(struct monge_scene *scene) {
+    jmp_buf full;
+    if (scene->accel) return true;
+    const struct arena_mark before = arena_mark(&scene->arena);
+    scene->arena.on_full = &full;
+    if (setjmp(full) == 0) scene->accel = accel_build(&scene->arena, &scene->scene.primitives);
+    else arena_release(&scene->arena, before);
+    scene->arena.on_full = NULL;
+    return scene->accel != NULL;
+}
+
+/* ---- Settings ---- */
+
+struct monge_settings monge_scene_settings(const struct monge_scene *scene) { return scene->scene.settings; }
+
+const char *monge_settings_check(const struct monge_settings *s) {
+    if (s->width < 1 || s->width > MONGE_MAX_SIDE) return "the width must be 1 to 65535 pixels";
+    if (s->height < 1 || s->height > MONGE_MAX_SIDE) return "the height must be 1 to 65535 pixels";
+    if ((uint64_t)s->width * s->height > MONGE_MAX_PIXELS)
+        return "a picture has at most 268435456 pixels, as 16384 x 16384: they take 3 GiB of memory";
+    if (s->samples < 1 || s->samples > MONGE_MAX_SAMPLES) return "the samples must be 1 to 65536 a pixel";
+    if (s->bits != 8 && s->bits != 16) return "the bits of a channel must be 8 or 16";
+    if (s->depth < 1 || s->depth > MONGE_MAX_DEPTH) return "the depth must be 1 (camera rays alone) to 64";
+    if (!(s->shadow >= 0.0 && s->shadow <= 1.0)) return "the shadow must be 0 (physical) to 1 (no shadows)";
+    return NULL;
+}
+
+/* ---- Rendering ---- */
+
+static double seconds(void) {
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static bool region_inside(const struct monge_region *r, const struct monge_settings *s) {
+    return r->width >= 1 && r->height >= 1 && r->x < s->width && r->y < s->height && r->width <= s->width - r->x &&
+           r->height <= s->height - r->y;
+}
+
+/* Of all that can change a pixel, and nothing else. */
+static struct hash fingerprint(const struct scene *scene, const struct monge_settings *s) {
+    struct hash hash;
+    hash_begin(&hash);
+    scene_hash(scene, &hash);
+    const uint64_t numbers[] = {s->width, s->height, s->samples, s->bits, s->encoding, s->shading, s->depth};
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) hash_integer(&hash, numbers[i]);
+    hash_double(&hash, s->shadow);
+    return hash;
+}
+
+struct monge_film *monge_render(struct monge_scene *scene, const struct monge_settings *settings,
+                                const struct monge_region *region, const struct monge_job *job, struct monge_stats *stats) {
+    const struct monge_job no_job = {0};
+    const struct monge_region whole = {0, 0, settings->width, settings->height};
+    struct monge_stats no_stats;
+    if (!stats) stats = &no_stats;
+    *stats = (struct monge_stats){0};
+    if (monge_settings_check(settings) || !region_inside(region ? region : &whole, settings)) return NULL;
+
+    const double begin = seconds();
+    const bool prepared_before = scene->accel != NULL;
+    if (!monge_scene_prepare(scene)) return NULL;
+    const double built = seconds();
+    struct monge_film *film = film_new(settings, region ? *region : whole);
+    if (!film) return NULL;
+    film->scene = fingerprint(&scene->scene, settings);
+    const bool done = render_film(&scene->scene, scene->accel, job ? job : &no_job, film, stats);
+    stats->build_seconds = prepared_before ? 0.0 : built - begin;
+    stats->render_seconds = seconds() - built;
+    if (done) return film;
+    monge_film_free(film);
+    return NULL;
+}
+
+bool monge_film_write_png(const struct monge_film *film, const char *path, struct monge_diagnostics *diag) {
+    char message[1024];
+    if (png_write_film(film, path, message, sizeof message)) return true;
+    diag_failure(&diag->list, "%s", message);
+    return false;
+}

@@ -1,0 +1,150 @@
+/* Monge: from a scene file to a picture. This is the whole public interface; the command line uses
+ * nothing behind it.
+ *
+ *     struct monge_diagnostics *diag = monge_diagnostics_new();
+ *     struct monge_scene *scene = monge_load_file("king.yaml", NULL, diag);
+ *     if (scene) {
+ *         struct monge_settings settings = monge_scene_settings(scene);
+ *         struct monge_film *film = monge_render(scene, &settings, NULL, NULL, NULL);
+ *         if (film) monge_film_write_png(film, "king.png", diag);
+ *         monge_film_free(film);
+ *     }
+ *     monge_diagnostics_print(diag, stderr);
+ *     monge_scene_free(scene);
+ *     monge_diagnostics_free(diag);
+ *
+ * Nothing here exits, prints unasked, or keeps global state; different scenes may be used from
+ * different threads at once. Every *_free takes NULL. */
+#ifndef MONGE_H
+#define MONGE_H
+
+#include <stdatomic.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+
+const char *monge_version(void); /* "1.2.3", static */
+
+/* ---- Diagnostics: what is wrong with a scene or a file, with its place ---- */
+
+struct monge_diagnostics;
+
+struct monge_diagnostics *monge_diagnostics_new(void); /* NULL: no memory */
+void monge_diagnostics_free(struct monge_diagnostics *diag);
+unsigned monge_diagnostics_errors(const struct monge_diagnostics *diag);   /* in scenes, so far */
+unsigned monge_diagnostics_warnings(const struct monge_diagnostics *diag); /* in scenes, so far */
+unsigned monge_diagnostics_failures(const struct monge_diagnostics *diag); /* of the system, so far: files, memory */
+
+/* All so far as text for people, `file:line:col: error: ...` and the line with a caret; by place. */
+void monge_diagnostics_print(const struct monge_diagnostics *diag, FILE *out);
+
+/* ---- Scenes ---- */
+
+/* What one load may use. Past a limit the load ends with an error that names it. 0: the default. */
+struct monge_limits {
+    size_t file_bytes;   /* of one file: 1 GiB */
+    size_t memory_bytes; /* of one load: 8 GiB */
+    size_t values;       /* values read, aliases expanded: 100,000,000 */
+    unsigned nesting;    /* lists and mappings within each other: 100 */
+};
+
+struct monge_scene;
+
+/* Reads a scene; "-" is standard input. limits may be NULL. NULL when the scene is wrong or cannot
+ * be read: diag says why, monge_diagnostics_failures which of the two. The caller frees the scene. */
+struct monge_scene *monge_load_file(const char *path, const struct monge_limits *limits,
+                                    struct monge_diagnostics *diag);
+
+/* The same from memory: `size` bytes of UTF-8 YAML, free to go when this returns; `name` stands for
+ * the file in messages. */
+struct monge_scene *monge_load_memory(const char *name, const char *text, size_t size,
+                                      const struct monge_limits *limits, struct monge_diagnostics *diag);
+
+void monge_scene_free(struct monge_scene *scene);
+
+/* How many primitives the scene has become. */
+size_t monge_scene_primitives(const struct monge_scene *scene);
+
+/* Builds the acceleration structure, which monge_render does itself where it has not been done.
+ * False when there is no memory for it. */
+bool monge_scene_prepare(struct monge_scene *scene);
+
+/* ---- Settings: what an author writes in the file and a user may override ---- */
+
+enum monge_shading {
+    MONGE_SHADING_PHONG,     /* ambient, diffuse and specular, reflection and refraction */
+    MONGE_SHADING_DIFFUSE,   /* ambient and diffuse alone */
+    MONGE_SHADING_SIGNATURE, /* each object in its flat diffuse colour, unlit */
+};
+enum monge_encoding { MONGE_ENCODING_SRGB, MONGE_ENCODING_LINEAR };
+
+enum {
+    MONGE_MAX_SIDE = 65535,
+    MONGE_MAX_PIXELS = 1 << 28, /* of a picture: 3 GiB of film */
+    MONGE_MAX_SAMPLES = 65536,
+    MONGE_MAX_DEPTH = 64
+};
+
+struct monge_settings {
+    uint32_t width, height; /* pixels, 1 .. MONGE_MAX_SIDE each, MONGE_MAX_PIXELS together */
+    uint32_t samples;       /* a pixel, 1 .. MONGE_MAX_SAMPLES */
+    unsigned bits;          /* of a channel in the file, 8 or 16 */
+    enum monge_encoding encoding;
+    enum monge_shading shading;
+    unsigned depth; /* of rays, 1 (camera rays alone) .. MONGE_MAX_DEPTH */
+    double shadow;  /* the part of a light that reaches a shadow, 0 (physical) .. 1 (no shadows) */
+};
+
+struct monge_settings monge_scene_settings(const struct monge_scene *scene); /* as the file has them */
+
+/* NULL if every setting is within its range, else which is not, for people; static. */
+const char *monge_settings_check(const struct monge_settings *settings);
+
+/* ---- Rendering ---- */
+
+/* Pixels of the whole picture, from its top left corner. */
+struct monge_region {
+    uint32_t x, y, width, height;
+};
+
+enum monge_ray { MONGE_RAY_CAMERA, MONGE_RAY_SHADOW, MONGE_RAY_REFLECTION, MONGE_RAY_REFRACTION, MONGE_RAY_KINDS };
+
+/* How to render: nothing in it changes a pixel. */
+struct monge_job {
+    unsigned threads;                                              /* 0: one for each processor */
+    void (*progress)(void *context, uint64_t done, uint64_t total); /* pixels; from any one thread at a time; may be NULL */
+    void *context;
+    const atomic_bool *cancel; /* set it to stop early; may be NULL */
+};
+
+struct monge_stats {
+    double build_seconds, render_seconds; /* build: 0 where it had been done before */
+    uint64_t rays[MONGE_RAY_KINDS];
+    unsigned threads;
+};
+
+/* The picture of linear colour that rendering makes. */
+struct monge_film;
+
+/* Renders `region` (NULL: the whole picture) with settings that monge_settings_check accepts. job
+ * and stats may be NULL. NULL when cancelled, out of memory, or the region is empty or not inside
+ * the picture. The caller frees the film. The same bits for every number of threads and every way
+ * to cut a picture into regions. */
+struct monge_film *monge_render(struct monge_scene *scene, const struct monge_settings *settings,
+                                const struct monge_region *region, const struct monge_job *job,
+                                struct monge_stats *stats);
+
+void monge_film_free(struct monge_film *film);
+struct monge_region monge_film_region(const struct monge_film *film);
+
+/* Linear red, green, blue of each pixel, row by row from the top left; width * height * 3 floats,
+ * >= 0, not clamped. Valid as long as the film. */
+const float *monge_film_pixels(const struct monge_film *film);
+
+/* Writes the film as PNG, with the bits and the encoding of the settings it was rendered with, and
+ * its fingerprint in text chunks. path "-" is standard output. A regular file appears complete under
+ * its name or not at all. False when it cannot: diag says why, as a failure. */
+bool monge_film_write_png(const struct monge_film *film, const char *path, struct monge_diagnostics *diag);
+
+#endif

@@ -1,0 +1,146 @@
+#include "render/trace.h"
+
+#include "base/elementary.h"
+
+/* A path whose light would be scaled by less than this is followed no further: it cannot change a
+ * channel of 16 bits, and it bounds the tree of rays. */
+static const double least_weight = 1e-5;
+
+/* One path through the tree of rays. */
+struct path {
+    const struct tracer *tracer;
+    uint64_t *rays;
+    struct media media;
+    unsigned depth; /* generation of its ray, from 1 */
+    vec3 weight;    /* by which its light reaches the pixel */
+};
+
+static vec3 follow(struct path *path, ray r);
+
+static vec3 background_color(const struct background *background, vec3 unit_dir) {
+    const double up = 0.5 * (1.0 + unit_dir.y);
+    return vec3_madd(vec3_scale(background->bottom, 1.0 - up), up, background->top);
+}
+
+/* The part of each channel that reaches `to` from `from` through what stands between: 0 behind
+ * anything opaque, times the `refraction` of every surface passed. Both points are left out. */
+static vec3 transmittance(const struct path *path, vec3 from, vec3 to) {
+    const struct tracer *tracer = path->tracer;
+    const struct scene *scene = tracer->scene;
+    const ray r = {from, vec3_sub(to, from)};
+    const double before_one = 1.0 - 0x1p-53;
+    path->rays[MONGE_RAY_SHADOW]++;
+    if (!tracer->any_transparent) return vec3_all(accel_any(tracer->accel, r, 0.0, 1.0) ? 0.0 : 1.0);
+    vec3 through = vec3_all(1.0);
+    struct hit hit = {.crossing = {.t = 0.0}};
+    while (accel_nearest(tracer->accel, r, hit.crossing.t, before_one, &hit)) {
+        through = vec3_mul(through, scene->materials[scene->primitives.info[hit.number].material].refraction);
+        if (vec3_max_abs(through) < least_weight) return vec3_all(0.0);
+    }
+    return through;
+}
+
+/* Where a ray met a surface, and what the shading needs of it. Directions are unit. */
+struct meeting {
+    struct surface surface;
+    const struct material *material;
+    vec3 dir;     /* of the ray that came */
+    bool outside; /* it came from the side that the normal points to */
+};
+
+/* The surface's point, moved by its error to the side that `normal` points to. */
+static vec3 leave_point(const struct meeting *m, vec3 normal) { return vec3_madd(m->surface.point, m->surface.error, normal); }
+
+/* The light that one point light adds at a meeting. */
+static vec3 shade_light(const struct path *path, const struct meeting *m, vec3 normal, const struct light *light) {
+    const struct tracer *tracer = path->tracer;
+    const vec3 to_light = vec3_normalize(vec3_sub(light->at, m->surface.point));
+    const double cosine = vec3_dot(normal, to_light);
+    vec3 color = vec3_scale(m->material->diffuse, cosine > 0.0 ? cosine : 0.0);
+    if (tracer->settings.shading == MONGE_SHADING_PHONG && (cosine > 0.0 || tracer->scene->highlight_always)) {
+        const vec3 mirrored = vec3_sub(vec3_scale(normal, 2.0 * cosine), to_light);
+        const double highlight = -vec3_dot(mirrored, m->dir);
+        if (highlight > 0.0) color = vec3_madd(color, elementary_pow(highlight, m->material->shininess), m->material->specular);
+    }
+    if (!(vec3_max_abs(color) > 0.0)) return color;
+    color = vec3_mul(color, light->color);
+    const double shadow = tracer->settings.shadow;
+    if (shadow >= 1.0) return color;
+    const double side = vec3_dot(m->surface.normal, to_light) > 0.0 ? 1.0 : -1.0;
+    const vec3 lit = transmittance(path, leave_point(m, vec3_scale(m->surface.normal, side)), light->at);
+    return vec3_mul(color, vec3_madd(vec3_all(shadow), 1.0 - shadow, lit));
+}
+
+static vec3 shade_local(const struct path *path, const struct meeting *m) {
+    const bool turn = !m->outside && path->tracer->scene->two_sided;
+    const vec3 normal = turn ? vec3_neg(m->surface.normal) : m->surface.normal;
+    vec3 color = vec3_mul(m->material->ambient, path->tracer->ambient);
+    for (uint32_t i = 0; i < path->tracer->light_count; i++)
+        color = vec3_add(color, shade_light(path, m, normal, &path->tracer->lights[i]));
+    return color;
+}
+
+/* What a secondary ray brings, times `factor`. The path's media are those at the ray's origin. */
+static vec3 follow_secondary(const struct path *from, ray r, vec3 factor, const struct media *media, enum monge_ray kind) {
+    struct path path = {from->tracer, from->rays, *media, from->depth + 1, vec3_mul(from->weight, factor)};
+    if (vec3_max_abs(path.weight) < least_weight) return vec3_all(0.0);
+    path.rays[kind]++;
+    return vec3_mul(factor, follow(&path, r));
+}
+
+/* Snell's law: the unit direction of the ray that goes on through a surface from index n1 to n2.
+ * `toward` is the unit normal on the side the ray came from. False at total internal reflection. */
+static bool refract(vec3 dir, vec3 toward, double n1, double n2, vec3 *out) {
+    const double ratio = n1 / n2, cosine = -vec3_dot(dir, toward);
+    const double rest = 1.0 - ratio * ratio * (1.0 - cosine * cosine);
+    if (!(rest >= 0.0)) return false;
+    *out = vec3_normalize(vec3_madd(vec3_scale(dir, ratio), ratio * cosine - sqrt(rest), toward));
+    return true;
+}
+
+/* Reflected and refracted light. Total internal reflection mirrors what would have been refracted. */
+static vec3 shade_secondary(const struct path *path, const struct meeting *m, uint32_t number) {
+    const struct material *material = m->material;
+    const vec3 toward = m->outside ? m->surface.normal : vec3_neg(m->surface.normal);
+    vec3 mirrored = material->reflection, color = vec3_all(0.0);
+    if (vec3_max_abs(material->refraction) > 0.0) {
+        bool was_inside = true;
+        const struct media beyond = m->outside ? media_enter(path->tracer->scene, &path->media, number)
+                                               : media_leave(&path->media, number, &was_inside);
+        const double n1 = m->outside || was_inside ? media_index(&path->media) : material->index;
+        const double n2 = m->outside ? material->index : media_index(&beyond);
+        vec3 dir;
+        if (refract(m->dir, toward, n1, n2, &dir)) {
+            const ray r = {leave_point(m, vec3_neg(toward)), dir};
+            color = follow_secondary(path, r, material->refraction, &beyond, MONGE_RAY_REFRACTION);
+        } else {
+            mirrored = vec3_add(mirrored, material->refraction);
+        }
+    }
+    if (!(vec3_max_abs(mirrored) > 0.0)) return color;
+    const vec3 dir = vec3_madd(m->dir, -2.0 * vec3_dot(m->dir, toward), toward);
+    const ray r = {leave_point(m, toward), dir};
+    return vec3_add(color, follow_secondary(path, r, mirrored, &path->media, MONGE_RAY_REFLECTION));
+}
+
+static vec3 follow(struct path *path, ray r) {
+    const struct tracer *tracer = path->tracer;
+    const struct scene *scene = tracer->scene;
+    struct hit hit;
+    if (!accel_nearest(tracer->accel, r, 0.0, INFINITY, &hit)) return background_color(&scene->background, vec3_normalize(r.dir));
+    const struct primitive_info *info = &scene->primitives.info[hit.number];
+    struct meeting m = {.surface = shape_surface(&scene->primitives, info->ref, r, hit.crossing),
+                        .material = &scene->materials[info->material],
+                        .dir = vec3_normalize(r.dir)};
+    if (tracer->settings.shading == MONGE_SHADING_SIGNATURE) return m.material->diffuse;
+    m.outside = vec3_dot(m.dir, m.surface.normal) < 0.0;
+    const vec3 local = shade_local(path, &m);
+    if (tracer->settings.shading != MONGE_SHADING_PHONG || path->depth >= tracer->settings.depth) return local;
+    return vec3_add(local, shade_secondary(path, &m, hit.number));
+}
+
+vec3 trace_ray(const struct tracer *tracer, ray r, const struct media *media, uint64_t rays[MONGE_RAY_KINDS]) {
+    struct path path = {tracer, rays, *media, 1, vec3_all(1.0)};
+    rays[MONGE_RAY_CAMERA]++;
+    return follow(&path, r);
+}

@@ -1,0 +1,23 @@
+/* Follows rays and shades what they hit: Whitted's recursion with Phong's model. */
+#ifndef MONGE_RENDER_TRACE_H
+#define MONGE_RENDER_TRACE_H
+
+#include "accel/accel.h"
+#include "render/media.h"
+
+/* What all rays of a picture share. Constant while it is rendered. */
+struct tracer {
+    const struct scene *scene;
+    const struct accel *accel;
+    struct monge_settings settings;
+    const struct light *lights; /* point lights alone */
+    uint32_t light_count;
+    vec3 ambient;         /* the sum of the ambient lights */
+    bool any_transparent; /* some material lets light through */
+};
+
+/* The linear colour seen along the ray, whose direction need not be unit. `media` is what its origin
+ * is inside of. Adds to the counts of rays, of which each thread has its own. */
+vec3 trace_ray(const struct tracer *tracer, ray r, const struct media *media, uint64_t rays[MONGE_RAY_KINDS]);
+
+#endif

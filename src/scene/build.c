@@ -1,0 +1,42 @@
+/* Walks the description's nodes once, with the transform so far, and leaves flat arrays. */
+#include <string.h>
+
+#include "scene/builder.h"
+
+void *builder_grow(struct builder *b, void *array, uint32_t count, uint32_t *room, size_t size) {
+    if (count < *room) return array;
+    *room = *room ? 2 * *room : 16;
+    void *larger = arena_array(b->arena, *room, size);
+    if (count) memcpy(larger, array, count * size);
+    return larger;
+}
+
+/* `inherited`: the material of the groups around, or NULL. */
+static void node_build(struct builder *b, const struct object_value *node, affine world_from_parent, const struct object_value *inherited) {
+    affine parent_from_node = AFFINE_IDENTITY;
+    transform_build(b, object_list(node, KEY_NODE_TRANSFORM), &parent_from_node); /* a wrong one is reported: go on */
+    const affine world_from_node = affine_compose(world_from_parent, parent_from_node);
+    const struct object_value *own = object_object(node, KEY_NODE_MATERIAL), *material = own ? own : inherited;
+    const struct object_value *bounds = object_object(node, KEY_NODE_BOUNDS);
+    const int key = object_alternative(node);
+    if (key < 0) return;
+    if (key != KEY_NODE_GROUP) {
+        shape_build(b, object_object(node, key), bounds, world_from_node, material_index(b, material));
+        return;
+    }
+    if (bounds) diag_help(b->diag, diag_error(b->diag, bounds->span, "`bounds` cut a quadric; a group has none"), "move them to the quadric");
+    const struct object_list members = object_list(node, key);
+    for (uint32_t i = 0; i < members.count; i++) node_build(b, members.items[i], world_from_node, material);
+}
+
+bool scene_build(struct arena *arena, struct diagnostics *diag, const struct object_value *file, struct scene *scene) {
+    struct builder b = {.arena = arena, .diag = diag, .scene = scene, .default_material = NO_MATERIAL};
+    *scene = (struct scene){0};
+    settings_build(&b, file);
+    camera_build(&b, file);
+    lights_build(&b, file);
+    materials_build(&b, file);
+    const struct object_list nodes = object_list(file, KEY_FILE_SCENE);
+    for (uint32_t i = 0; i < nodes.count; i++) node_build(&b, nodes.items[i], AFFINE_IDENTITY, NULL);
+    return diag->errors == 0;
+}

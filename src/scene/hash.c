@@ -1,0 +1,75 @@
+#include "scene/scene.h"
+
+static void hash_affine(struct hash *hash, const affine *map) {
+    for (int row = 0; row < 3; row++)
+        for (int column = 0; column < 4; column++) hash_double(hash, map->m[row][column]);
+}
+
+static void hash_box(struct hash *hash, box3 box) {
+    hash_vec3(hash, box.min);
+    hash_vec3(hash, box.max);
+}
+
+static void hash_form(struct hash *hash, const struct quadric_form *form) {
+    const double terms[] = {form->xx, form->yy, form->zz, form->xy, form->yz, form->zx, form->x, form->y, form->z, form->constant};
+    for (size_t i = 0; i < sizeof terms / sizeof *terms; i++) hash_double(hash, terms[i]);
+    hash_box(hash, form->clip);
+    hash_integer(hash, form->open);
+}
+
+static void hash_camera(struct hash *hash, const struct camera *camera) {
+    const bool given[] = {camera->has_eye, camera->has_look_at, camera->has_direction, camera->has_up, camera->has_height};
+    for (size_t i = 0; i < sizeof given / sizeof *given; i++) hash_integer(hash, given[i]);
+    hash_integer(hash, camera->projection);
+    hash_vec3(hash, camera->eye);
+    hash_vec3(hash, camera->look_at);
+    hash_vec3(hash, camera->direction);
+    hash_vec3(hash, camera->up);
+    hash_double(hash, camera->fov_deg);
+    hash_double(hash, camera->height);
+}
+
+static void hash_material(struct hash *hash, const struct material *m) {
+    const vec3 colors[] = {m->ambient, m->diffuse, m->specular, m->reflection, m->refraction};
+    for (size_t i = 0; i < sizeof colors / sizeof *colors; i++) hash_vec3(hash, colors[i]);
+    hash_double(hash, m->shininess);
+    hash_double(hash, m->index);
+}
+
+static void hash_primitive(struct hash *hash, const struct primitives *p, const struct primitive_info *info) {
+    const uint32_t index = primitive_ref_index(info->ref);
+    hash_integer(hash, info->ref);
+    hash_integer(hash, info->material);
+    switch (primitive_ref_kind(info->ref)) {
+    case PRIMITIVE_SPHERE:
+        hash_vec3(hash, p->spheres[index].center);
+        hash_double(hash, p->spheres[index].radius);
+        return;
+    case PRIMITIVE_FLAT:
+        hash_affine(hash, &p->flats[index].world_from_object);
+        hash_integer(hash, p->flats[index].outline);
+        return;
+    case PRIMITIVE_QUADRIC: break;
+    }
+    hash_affine(hash, &p->quadrics[index].world_from_object);
+    hash_form(hash, p->quadrics[index].form);
+}
+
+void scene_hash(const struct scene *scene, struct hash *hash) {
+    hash_integer(hash, scene->two_sided);
+    hash_integer(hash, scene->highlight_always);
+    hash_vec3(hash, scene->background.bottom);
+    hash_vec3(hash, scene->background.top);
+    hash_camera(hash, &scene->camera);
+    hash_integer(hash, scene->default_lights);
+    hash_integer(hash, scene->light_count);
+    for (uint32_t i = 0; i < scene->light_count; i++) {
+        hash_integer(hash, scene->lights[i].kind);
+        hash_vec3(hash, scene->lights[i].at);
+        hash_vec3(hash, scene->lights[i].color);
+    }
+    hash_integer(hash, scene->material_count);
+    for (uint32_t i = 0; i < scene->material_count; i++) hash_material(hash, &scene->materials[i]);
+    hash_integer(hash, scene->primitives.count);
+    for (uint32_t i = 0; i < scene->primitives.count; i++) hash_primitive(hash, &scene->primitives, &scene->primitives.info[i]);
+}

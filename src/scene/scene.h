@@ -1,0 +1,65 @@
+/* A scene, ready to be rendered: settings, camera, lights, materials and flat arrays of primitives.
+ * Everything is in world space and belongs to the arena of the load. */
+#ifndef MONGE_SCENE_SCENE_H
+#define MONGE_SCENE_SCENE_H
+
+#include "base/diag.h"
+#include "base/hash.h"
+#include "lang/description.h"
+#include "monge.h"
+#include "scene/primitive.h"
+
+/* What the file says of the camera; what it leaves open, render/ decides from the scene's bounds. */
+struct camera {
+    enum camera_projection { CAMERA_PERSPECTIVE, CAMERA_ORTHOGRAPHIC } projection;
+    bool has_eye, has_look_at, has_direction, has_up, has_height;
+    vec3 eye, look_at; /* world-space points */
+    vec3 direction;    /* world space, any length but zero */
+    vec3 up;           /* world space, any length but zero */
+    double fov_deg;    /* vertical, 0 < fov < 180; perspective */
+    double height;     /* of the view in world units, > 0; orthographic */
+};
+
+/* What a ray sees that hits nothing: `bottom` straight down to `top` straight up; equal for a flat one. */
+struct background {
+    vec3 bottom, top; /* linear colour */
+};
+
+struct light {
+    enum light_kind { LIGHT_AMBIENT, LIGHT_POINT } kind;
+    vec3 at;    /* world space; point */
+    vec3 color; /* linear, >= 0 */
+};
+
+/* Phong's model. Colours are linear and >= 0. */
+struct material {
+    vec3 ambient, diffuse, specular;
+    double shininess;            /* the highlight's exponent, >= 0 */
+    vec3 reflection, refraction; /* factors of the secondary rays, sum of each channel <= 1 */
+    double index;                /* of refraction, relative to vacuum, > 0 */
+};
+
+struct scene {
+    struct monge_settings settings; /* as the file has them */
+    bool two_sided;                 /* normals are turned towards the viewer before shading */
+    bool highlight_always;          /* the highlight is not gated by N.L > 0 */
+    struct background background;
+    struct camera camera;
+    bool default_lights; /* the file names none: render/ adds a key and a fill light */
+    struct light *lights;
+    uint32_t light_count;
+    struct material *materials;
+    uint32_t material_count;
+    struct primitives primitives;
+};
+
+/* Builds the scene that `file` describes. Shapes are in file order; groups and transforms are
+ * flattened. False when something is wrong with it: reported to `diag`, nothing usable in *scene.
+ * All of *scene lives in `arena`. */
+bool scene_build(struct arena *arena, struct diagnostics *diag, const struct object_value *file,
+                 struct scene *scene);
+
+/* Adds everything of the scene that can change a pixel, except the settings, to the hash. */
+void scene_hash(const struct scene *scene, struct hash *hash);
+
+#endif

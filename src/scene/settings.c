@@ -1,0 +1,165 @@
+/* Settings, camera, lights and materials of a file. */
+#include "base/elementary.h"
+#include "scene/builder.h"
+
+/* ---- Image and render ---- */
+
+static void background_build(struct scene *scene, const struct object_value *image) {
+    const struct object_value *backdrop = image ? object_object(image, KEY_IMAGE_BACKGROUND) : NULL;
+    if (backdrop) {
+        scene->background.bottom = object_vec3(backdrop, KEY_BACKDROP_BOTTOM);
+        scene->background.top = object_vec3(backdrop, KEY_BACKDROP_TOP);
+    } else if (image && object_has(image, KEY_IMAGE_BACKGROUND)) {
+        scene->background.bottom = scene->background.top = object_vec3(image, KEY_IMAGE_BACKGROUND);
+    } else {
+        scene->background.bottom = (vec3){0.72, 0.71, 0.70};
+        scene->background.top = (vec3){0.16, 0.21, 0.30};
+    }
+}
+
+void settings_build(struct builder *b, const struct object_value *file) {
+    struct scene *scene = b->scene;
+    struct monge_settings *s = &scene->settings;
+    const struct object_value none_image = {.kind = &grammar_kinds[KIND_IMAGE], .fields = (struct value *[KEYS_IMAGE]){0}};
+    const struct object_value none_render = {.kind = &grammar_kinds[KIND_RENDER], .fields = (struct value *[KEYS_RENDER]){0}};
+    const struct object_value *image = object_object(file, KEY_FILE_IMAGE), *render = object_object(file, KEY_FILE_RENDER);
+    background_build(scene, image);
+    if (!image) image = &none_image;
+    if (!render) render = &none_render;
+    const vec3 size = object_vec3(image, KEY_IMAGE_SIZE);
+    *s = (struct monge_settings){
+        .width = (uint32_t)size.x,
+        .height = (uint32_t)size.y,
+        .samples = (uint32_t)object_number(image, KEY_IMAGE_SAMPLES),
+        .bits = object_choice(image, KEY_IMAGE_BITS) == CHOICE_IMAGE_BITS_16 ? 16 : 8,
+        .encoding = object_choice(image, KEY_IMAGE_ENCODING) == CHOICE_IMAGE_ENCODING_LINEAR ? MONGE_ENCODING_LINEAR : MONGE_ENCODING_SRGB,
+        .shading = (enum monge_shading)object_choice(render, KEY_RENDER_SHADING),
+        .depth = (unsigned)object_number(render, KEY_RENDER_DEPTH),
+        .shadow = object_number(render, KEY_RENDER_SHADOW),
+    };
+    scene->two_sided = object_choice(render, KEY_RENDER_TWO_SIDED);
+    scene->highlight_always = object_choice(render, KEY_RENDER_HIGHLIGHT) == CHOICE_RENDER_HIGHLIGHT_ALWAYS;
+    const char *wrong = monge_settings_check(s);
+    if (wrong) diag_error(b->diag, object_has(image, KEY_IMAGE_SIZE) ? object_span(image, KEY_IMAGE_SIZE) : image->span, "%s", wrong);
+}
+
+/* ---- Camera ---- */
+
+static bool parallel(vec3 a, vec3 c) {
+    return vec3_length(vec3_cross(vec3_normalize(a), vec3_normalize(c))) < 1e-9;
+}
+
+/* Reports a camera that has no direction, or whose `up` says nothing. */
+static void camera_check(struct builder *b, const struct object_value *object, const struct camera *camera) {
+    const vec3 view = camera->has_direction ? camera->direction : vec3_sub(camera->look_at, camera->eye);
+    if (!camera->has_direction && !(camera->has_eye && camera->has_look_at)) return;
+    if (!(vec3_max_abs(view) > 0.0)) {
+        struct diagnostic *d = diag_error(b->diag, object_span(object, KEY_CAMERA_LOOK_AT), "`look_at` is where `eye` is: no direction to look in");
+        diag_related(b->diag, d, object_span(object, KEY_CAMERA_EYE), "`eye` is given here");
+        return;
+    }
+    if (!camera->has_up || !parallel(view, camera->up)) return;
+    const vec3 n = vec3_abs(vec3_normalize(view));
+    struct diagnostic *d = diag_error(b->diag, object_span(object, KEY_CAMERA_UP), "`up` points along the view, which leaves open what is up");
+    diag_help(b->diag, d, "%s will do", n.y > 0.9 ? "[0, 0, -1]" : "[0, 1, 0]");
+}
+
+static void projection_check(struct builder *b, const struct object_value *object, const struct camera *camera) {
+    const bool perspective = camera->projection == CAMERA_PERSPECTIVE;
+    const int other = perspective ? KEY_CAMERA_HEIGHT : KEY_CAMERA_FOV;
+    if (!object_has(object, other)) return;
+    struct diagnostic *d = diag_error(b->diag, object_span(object, other), "`%s` is for %s camera", object->kind->keys[other].name,
+                                      perspective ? "an orthographic" : "a perspective");
+    diag_help(b->diag, d, perspective ? "use `fov`, or add `projection: orthographic`" : "use `height`, or remove `projection: orthographic`");
+}
+
+void camera_build(struct builder *b, const struct object_value *file) {
+    struct camera *camera = &b->scene->camera;
+    const struct object_value *object = object_object(file, KEY_FILE_CAMERA);
+    *camera = (struct camera){.up = {0, 1, 0}, .fov_deg = grammar_kinds[KIND_CAMERA].keys[KEY_CAMERA_FOV].value[0]};
+    if (!object) return;
+    *camera = (struct camera){
+        .projection = object_choice(object, KEY_CAMERA_PROJECTION) == CHOICE_CAMERA_PROJECTION_ORTHOGRAPHIC ? CAMERA_ORTHOGRAPHIC : CAMERA_PERSPECTIVE,
+        .has_eye = object_has(object, KEY_CAMERA_EYE),
+        .has_look_at = object_has(object, KEY_CAMERA_LOOK_AT),
+        .has_direction = object_has(object, KEY_CAMERA_DIRECTION),
+        .has_up = object_has(object, KEY_CAMERA_UP),
+        .has_height = object_has(object, KEY_CAMERA_HEIGHT),
+        .eye = object_vec3(object, KEY_CAMERA_EYE),
+        .look_at = object_vec3(object, KEY_CAMERA_LOOK_AT),
+        .direction = object_vec3(object, KEY_CAMERA_DIRECTION),
+        .up = object_has(object, KEY_CAMERA_UP) ? object_vec3(object, KEY_CAMERA_UP) : (vec3){0, 1, 0},
+        .fov_deg = object_number(object, KEY_CAMERA_FOV),
+        .height = object_number(object, KEY_CAMERA_HEIGHT),
+    };
+    if (object->failed) return;
+    camera_check(b, object, camera);
+    projection_check(b, object, camera);
+}
+
+/* ---- Lights ---- */
+
+static struct light light_build(const struct object_value *object) {
+    const struct object_value *ambient = object_object(object, KEY_LIGHT_AMBIENT), *point = object_object(object, KEY_LIGHT_POINT);
+    if (ambient) return (struct light){LIGHT_AMBIENT, {0, 0, 0}, object_vec3(ambient, KEY_AMBIENT_LIGHT_COLOR)};
+    if (point) return (struct light){LIGHT_POINT, object_vec3(point, KEY_POINT_LIGHT_AT), object_vec3(point, KEY_POINT_LIGHT_COLOR)};
+    return (struct light){LIGHT_AMBIENT, {0, 0, 0}, {0, 0, 0}}; /* a reported one */
+}
+
+void lights_build(struct builder *b, const struct object_value *file) {
+    struct scene *scene = b->scene;
+    const struct object_list list = object_list(file, KEY_FILE_LIGHTS);
+    scene->default_lights = !object_has(file, KEY_FILE_LIGHTS);
+    scene->lights = arena_array(b->arena, list.count ? list.count : 1, sizeof *scene->lights);
+    scene->light_count = list.count;
+    for (uint32_t i = 0; i < list.count; i++) scene->lights[i] = light_build(list.items[i]);
+    if (scene->default_lights || list.count > 0 || scene->settings.shading == MONGE_SHADING_SIGNATURE || file->failed) return;
+    struct diagnostic *d = diag_warning(b->diag, object_span(file, KEY_FILE_LIGHTS), "no light: everything will be black");
+    diag_help(b->diag, d, "add one, or remove `lights` for the default ones");
+}
+
+/* ---- Materials ---- */
+
+static struct material material_of(struct builder *b, const struct object_value *object) {
+    struct material m = {
+        .ambient = object_vec3(object, KEY_MATERIAL_AMBIENT),
+        .specular = object_vec3(object, KEY_MATERIAL_SPECULAR),
+        .shininess = object_number(object, KEY_MATERIAL_SHININESS),
+        .reflection = object_vec3(object, KEY_MATERIAL_REFLECTION),
+        .refraction = object_vec3(object, KEY_MATERIAL_REFRACTION),
+        .index = object_number(object, KEY_MATERIAL_INDEX),
+    };
+    const vec3 sum = vec3_add(m.reflection, m.refraction);
+    const double most = sum.x > sum.y ? (sum.x > sum.z ? sum.x : sum.z) : (sum.y > sum.z ? sum.y : sum.z);
+    if (most > 1.0 + 1e-9 && !object->failed) {
+        struct diagnostic *d = diag_error(b->diag, object_span(object, KEY_MATERIAL_REFRACTION), "`reflection` and `refraction` add up to %g: more light than comes in", most);
+        diag_help(b->diag, d, "their sum is at most 1");
+        diag_related(b->diag, d, object_span(object, KEY_MATERIAL_REFLECTION), "`reflection` is given here");
+    }
+    const vec3 left = vec3_scale(vec3_sub(vec3_all(1), sum), 0.8);
+    const vec3 matte = {left.x > 0 ? left.x : 0, left.y > 0 ? left.y : 0, left.z > 0 ? left.z : 0};
+    m.diffuse = object_has(object, KEY_MATERIAL_DIFFUSE) ? object_vec3(object, KEY_MATERIAL_DIFFUSE) : matte;
+    return m;
+}
+
+static uint32_t add_material(struct builder *b, struct material material) {
+    struct scene *scene = b->scene;
+    scene->materials = builder_grow(b, scene->materials, scene->material_count, &b->material_room, sizeof *scene->materials);
+    scene->materials[scene->material_count] = material;
+    return scene->material_count++;
+}
+
+void materials_build(struct builder *b, const struct object_value *file) {
+    const struct object_list named = object_list(file, KEY_FILE_MATERIALS);
+    for (uint32_t i = 0; i < named.count; i++) add_material(b, material_of(b, named.items[i]));
+}
+
+/* A light clay, with a soft highlight. */
+static const struct material default_material = {
+    .ambient = {0.62, 0.36, 0.22}, .diffuse = {0.62, 0.36, 0.22}, .specular = {0.25, 0.25, 0.25}, .shininess = 40, .index = 1};
+
+uint32_t material_index(struct builder *b, const struct object_value *material) {
+    if (material) return material->name ? material->definition : add_material(b, material_of(b, material));
+    if (b->default_material == NO_MATERIAL) b->default_material = add_material(b, default_material);
+    return b->default_material;
+}

@@ -1,0 +1,212 @@
+/* What must not change a picture (threads, regions, the size of the world), and where cameras look. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "monge.h"
+#include "render/camera.h"
+
+static struct monge_scene *load(const char *text) {
+    struct monge_diagnostics *diag = monge_diagnostics_new();
+    struct monge_scene *scene = monge_load_memory("test", text, strlen(text), NULL, diag);
+    monge_diagnostics_print(diag, stderr);
+    monge_diagnostics_free(diag);
+    assert_non_null(scene);
+    return scene;
+}
+
+static struct monge_film *render(struct monge_scene *scene, const struct monge_region *region, unsigned threads) {
+    const struct monge_settings settings = monge_scene_settings(scene);
+    const struct monge_job job = {.threads = threads};
+    struct monge_film *film = monge_render(scene, &settings, region, &job, NULL);
+    assert_non_null(film);
+    return film;
+}
+
+/* Spheres, an ellipsoid, mirrors, glass, shadows, all shapes; `%g` the size of the world. */
+static char *busy_scene(double s, double size_x, double size_y) {
+    static const char form[] =
+        "image: {size: [%g, %g], samples: 1}\n"
+        "camera: {eye: [%.17g, %.17g, %.17g], look_at: [0, 0, 0], fov: 40}\n"
+        "lights: [{point: {at: [%.17g, %.17g, %.17g]}}, {point: {at: [%.17g, %.17g, 0], color: [0.3, 0.3, 0.3]}}, {ambient: {}}]\n"
+        "materials:\n"
+        "  clay: {ambient: [0.1, 0.1, 0.1], diffuse: [0.7, 0.5, 0.3], specular: [0.4, 0.4, 0.4]}\n"
+        "  chrome: {diffuse: [0.1, 0.1, 0.1], reflection: 0.8}\n"
+        "  glass: {diffuse: black, reflection: 0.1, refraction: 0.85, index: 1.5}\n"
+        "scene:\n"
+        "  - group:\n"
+        "      - {plane: {point: [0, -1, 0], normal: [0, 1, 0]}, material: clay}\n"
+        "      - {sphere: {center: [-1.2, -0.2, -1], radius: 0.8}, material: chrome}\n"
+        "      - {sphere: {center: [0.6, -0.4, 0.9], radius: 0.6}, material: glass}\n"
+        "      - {sphere: {}, transform: [{scale: [0.3, 0.8, 0.4]}, {rotate: {z: 30}}, {translate: [0.6, -0.1, -0.9]}], material: clay}\n"
+        "      - {cylinder: {from: [1.5, -1, 0], to: [1.7, 0.2, -0.5], radius: 0.3}, material: clay}\n"
+        "      - {cone: {from: [-0.6, -1, 0.6], to: [-0.6, 0, 0.4], radius: 0.4}, material: chrome}\n"
+        "      - {paraboloid: {from: [-1.6, -1, 0.8], to: [-1.6, -0.4, 0.8], radius: 0.3, open: true}, material: clay}\n"
+        "      - {hyperboloid: {from: [1.4, -1, 1], to: [1.4, -0.4, 1], radius: 0.2}, material: clay}\n"
+        "      - {box: {min: [-2.2, -1, -1], max: [-1.9, 0.8, 0]}, transform: {rotate: {y: 20}}, material: clay}\n"
+        "    transform: {scale: %.17g}\n";
+    const size_t room = sizeof form + 500;
+    char *text = malloc(room);
+    snprintf(text, room, form, size_x, size_y, 2 * s, 1.5 * s, 6 * s, 4 * s, 5 * s, 3 * s, -5 * s, 2 * s, s);
+    return text;
+}
+
+static void test_threads(void **state) {
+    (void)state;
+    char *text = busy_scene(1, 173, 101);
+    struct monge_scene *scene = load(text);
+    struct monge_film *one = render(scene, NULL, 1);
+    const unsigned counts[] = {2, 3, 7, 64, 1024};
+    for (size_t i = 0; i < sizeof counts / sizeof *counts; i++) {
+        struct monge_film *many = render(scene, NULL, counts[i]);
+        assert_memory_equal(monge_film_pixels(one), monge_film_pixels(many), 173 * 101 * 3 * sizeof(float));
+        monge_film_free(many);
+    }
+    monge_film_free(one);
+    monge_scene_free(scene);
+    free(text);
+}
+
+static void test_regions(void **state) {
+    (void)state;
+    char *text = busy_scene(1, 120, 90);
+    struct monge_scene *scene = load(text);
+    struct monge_film *whole = render(scene, NULL, 2);
+    const struct monge_region regions[] = {{0, 0, 1, 1}, {119, 89, 1, 1}, {17, 5, 40, 33}, {0, 33, 120, 57}, {64, 0, 56, 90}};
+    for (size_t i = 0; i < sizeof regions / sizeof *regions; i++) {
+        const struct monge_region *r = &regions[i];
+        struct monge_film *part = render(scene, r, 2);
+        for (uint32_t y = 0; y < r->height; y++)
+            assert_memory_equal(monge_film_pixels(part) + 3 * y * r->width, monge_film_pixels(whole) + 3 * ((r->y + y) * 120 + r->x),
+                                3 * r->width * sizeof(float));
+        monge_film_free(part);
+    }
+    monge_film_free(whole);
+    monge_scene_free(scene);
+    free(text);
+}
+
+/* Pixels that differ by more than rounding can explain; an outline may move a pixel in a thousand. */
+static size_t count_different(const float *a, const float *b, size_t pixels) {
+    size_t different = 0;
+    for (size_t i = 0; i < pixels; i++) {
+        bool same = true;
+        for (size_t c = 0; c < 3; c++) same &= fabs((double)a[3 * i + c] - (double)b[3 * i + c]) < 1e-5;
+        different += !same;
+    }
+    return different;
+}
+
+static void test_scale_of_the_world(void **state) {
+    (void)state;
+    char *text = busy_scene(1, 160, 120);
+    struct monge_scene *scene = load(text);
+    struct monge_film *plain = render(scene, NULL, 2);
+    const double scales[] = {1e-4, 1e6, 1e-30, 1e30, 3.7};
+    for (size_t i = 0; i < sizeof scales / sizeof *scales; i++) {
+        char *scaled_text = busy_scene(scales[i], 160, 120);
+        struct monge_scene *scaled = load(scaled_text);
+        struct monge_film *film = render(scaled, NULL, 2);
+        const size_t different = count_different(monge_film_pixels(plain), monge_film_pixels(film), 160 * 120);
+        if (different > 3) fail_msg("at scale %g %zu pixels differ", scales[i], different);
+        monge_film_free(film);
+        monge_scene_free(scaled);
+        free(scaled_text);
+    }
+    monge_film_free(plain);
+    monge_scene_free(scene);
+    free(text);
+}
+
+/* ---- Cameras ---- */
+
+static void assert_vec3(vec3 got, vec3 want, double tolerance) {
+    if (!(vec3_max_abs(vec3_sub(got, want)) <= tolerance))
+        fail_msg("(%g, %g, %g), want (%g, %g, %g)", got.x, got.y, got.z, want.x, want.y, want.z);
+}
+
+static void test_perspective(void **state) {
+    (void)state;
+    const struct scene scene = {.camera = {.has_eye = true, .has_look_at = true, .eye = {0, 0, 1}, .look_at = {0, 0, -1}, .up = {0, 1, 0}, .fov_deg = 60}};
+    const struct view view = camera_view(&scene, BOX3_EMPTY, 320, 240);
+    const double tan30 = 0.57735026918962576;
+    assert_vec3(camera_ray(&view, 0.5, 0.5).dir, (vec3){0, 0, -1}, 1e-15);
+    assert_vec3(camera_ray(&view, 0.5, 0).dir, (vec3){0, tan30, -1}, 1e-15);          /* top */
+    assert_vec3(camera_ray(&view, 1, 0.5).dir, (vec3){tan30 * 4 / 3, 0, -1}, 1e-15); /* right: square pixels */
+    assert_vec3(camera_ray(&view, 0, 1).org, (vec3){0, 0, 1}, 0);
+}
+
+static void test_orthographic(void **state) {
+    (void)state;
+    const struct scene scene = {.camera = {.projection = CAMERA_ORTHOGRAPHIC, .has_eye = true, .has_direction = true, .has_height = true,
+                                           .eye = {0, 10, 0}, .direction = {0, -2, 0}, .up = {0, 0, -1}, .has_up = true, .height = 4}};
+    const struct view view = camera_view(&scene, BOX3_EMPTY, 200, 100);
+    assert_vec3(camera_ray(&view, 0.5, 0.5).org, (vec3){0, 10, 0}, 1e-15);
+    assert_vec3(camera_ray(&view, 1, 0).org, (vec3){4, 10, -2}, 1e-15);
+    assert_vec3(camera_ray(&view, 0, 1).dir, (vec3){0, -1, 0}, 1e-15);
+}
+
+static void test_straight_down(void **state) {
+    (void)state;
+    const struct scene scene = {.camera = {.has_eye = true, .has_look_at = true, .eye = {0, 5, 0}, .look_at = {0, 0, 0}, .up = {0, 1, 0}, .fov_deg = 90}};
+    const struct view view = camera_view(&scene, BOX3_EMPTY, 100, 100);
+    assert_vec3(camera_ray(&view, 0.5, 0).dir, (vec3){0, -1, -1}, 1e-15); /* what is far is up */
+}
+
+/* Whatever the file leaves open, all of the scene is in the picture and fills a good part of it: no
+ * pixel of the border shows the object, and some pixel within a third of it does. */
+static void test_framing(void **state) {
+    (void)state;
+    static const char *const objects[] = {
+        "{sphere: {}}",
+        "{sphere: {center: [100, -50, 3], radius: 0.001}}",
+        "{box: {max: [50, 0.5, 0.5]}}",
+        "{box: {max: [0.5, 50, 0.5]}}",
+        "{box: {min: [-40, -0.5, -0.5]}, transform: {rotate: {y: 70}}}",
+        "{group: [{sphere: {}}, {sphere: {center: [0, 9, 0]}}, {cone: {from: [5, 0, 0], to: [5, 0, -9]}}]}",
+    };
+    static const char *const cameras[] = {
+        "{}", "{fov: 5}", "{fov: 120}", "{projection: orthographic}", "{direction: [1, -1, 0.3]}", "{direction: [0, -1, 0]}",
+        "{direction: [0, 0, 1], projection: orthographic}",
+    };
+    static const double sizes[][2] = {{48, 36}, {90, 20}, {20, 90}};
+    for (size_t i = 0; i < sizeof objects / sizeof *objects; i++)
+        for (size_t j = 0; j < sizeof cameras / sizeof *cameras; j++)
+            for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++) {
+                char text[1000];
+                snprintf(text, sizeof text, "image: {size: [%g, %g], background: black}\nrender: {shading: signature}\ncamera: %s\nscene: [%s]\n",
+                         sizes[k][0], sizes[k][1], cameras[j], objects[i]);
+                struct monge_scene *scene = load(text);
+                struct monge_film *film = render(scene, NULL, 1);
+                const struct monge_region r = monge_film_region(film);
+                double border = 0, inner = 0;
+                for (uint32_t y = 0; y < r.height; y++)
+                    for (uint32_t x = 0; x < r.width; x++) {
+                        const double v = (double)monge_film_pixels(film)[3 * (y * r.width + x)];
+                        const bool edge = x == 0 || y == 0 || x == r.width - 1 || y == r.height - 1;
+                        const bool near_edge = 3 * x < r.width || 3 * y < r.height || 3 * (r.width - 1 - x) < r.width || 3 * (r.height - 1 - y) < r.height;
+                        if (edge) border += v;
+                        else if (near_edge) inner += v;
+                    }
+                if (border > 0) fail_msg("cut off: %s", text);
+                if (!(inner > 0)) fail_msg("too small: %s", text);
+                monge_film_free(film);
+                monge_scene_free(scene);
+            }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_threads),     cmocka_unit_test(test_regions),       cmocka_unit_test(test_scale_of_the_world),
+        cmocka_unit_test(test_perspective), cmocka_unit_test(test_orthographic), cmocka_unit_test(test_straight_down),
+        cmocka_unit_test(test_framing),
+    };
+    return cmocka_run_group_tests_name("render", tests, NULL, NULL);
+}

@@ -1,0 +1,356 @@
+/* Shapes at places where the answer is known in closed form. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "shape_forms.h"
+
+#define COUNT(rows) (sizeof(rows) / sizeof *(rows))
+
+static void assert_near(double got, double want, double tolerance, const char *what) {
+    if (!(fabs(got - want) <= tolerance) && got != want)
+        fail_msg("%s: got %.17g, want %.17g", what, got, want);
+}
+
+static void assert_vec3_near(vec3 got, vec3 want, double tolerance, const char *what) {
+    if (!(vec3_max_abs(vec3_sub(got, want)) <= tolerance))
+        fail_msg("%s: got (%.17g, %.17g, %.17g), want (%.17g, %.17g, %.17g)", what, got.x, got.y, got.z,
+                 want.x, want.y, want.z);
+}
+
+/* The shapes that the tables name; the canonical one of each kind. */
+enum { SPHERE = FORM_COUNT, SQUARE, DISC, PLANE, BALL_2, SLANTED, MIRRORED, STRETCHED };
+
+static const struct quadric_form space = {.constant = -1, .clip = BOX3_ALL, .extent = BOX3_ALL};
+static const struct quadric_form quarter = {.xx = 1,
+                                            .yy = 1,
+                                            .constant = -1,
+                                            .clip = BOX(0, 0, -INFINITY, INFINITY, INFINITY, 1),
+                                            .extent = BOX3_ALL};
+enum { SPACE = STRETCHED + 1, QUARTER };
+
+static void make(struct alone *a, int shape) {
+    switch (shape) {
+    case SPHERE: alone_sphere(a, (vec3){0, 0, 0}, 1); return;
+    case BALL_2: alone_sphere(a, (vec3){1, 2, 3}, 2); return;
+    case SQUARE: alone_flat(a, FLAT_SQUARE, AFFINE_IDENTITY); return;
+    case DISC: alone_flat(a, FLAT_DISC, AFFINE_IDENTITY); return;
+    case PLANE: alone_flat(a, FLAT_PLANE, AFFINE_IDENTITY); return;
+    case SLANTED: alone_flat(a, FLAT_SQUARE, affine_rotate((vec3){1, 0, 0}, 90)); return;
+    case MIRRORED: alone_quadric(a, &forms[CONE], affine_scale((vec3){1, 1, -1})); return;
+    case STRETCHED: alone_quadric(a, &forms[ELLIPSOID], affine_scale((vec3){1, 2, 3})); return;
+    case SPACE: alone_quadric(a, &space, AFFINE_IDENTITY); return;
+    case QUARTER: alone_quadric(a, &quarter, AFFINE_IDENTITY); return;
+    default: alone_quadric(a, &forms[shape], AFFINE_IDENTITY); return;
+    }
+}
+
+/* clang-format off */
+#define SIDE  SHAPE_SIDE
+#define MIN_X SHAPE_CUT_MIN_X
+#define MAX_X SHAPE_CUT_MAX_X
+#define MIN_Z SHAPE_CUT_MIN_Z
+#define MAX_Z SHAPE_CUT_MAX_Z
+#define MISS  0, {{0, SHAPE_SIDE}}
+
+static struct crossing_row {
+    const char *name;
+    int shape;
+    ray r;
+    int count;
+    struct crossing want[SHAPE_MAX_CROSSINGS];
+} crossing_rows[] = {
+    {"sphere through the centre", SPHERE, {{0, 0, -3}, {0, 0, 1}}, 2, {{2, SIDE}, {4, SIDE}}},
+    {"sphere from inside", SPHERE, {{0, 0, 0}, {0, 1, 0}}, 2, {{-1, SIDE}, {1, SIDE}}},
+    {"sphere behind", SPHERE, {{0, 0, 3}, {0, 0, 1}}, 2, {{-4, SIDE}, {-2, SIDE}}},
+    {"sphere, direction of length two", SPHERE, {{0, 0, -3}, {0, 0, 2}}, 2, {{1, SIDE}, {2, SIDE}}},
+    {"sphere grazed", SPHERE, {{1, 0, -3}, {0, 0, 1}}, MISS},
+    {"sphere missed", SPHERE, {{2, 0, -3}, {0, 0, 1}}, MISS},
+    {"sphere, zero direction", SPHERE, {{0, 0, -3}, {0, 0, 0}}, MISS},
+    {"sphere, NaN origin", SPHERE, {{NAN, 0, -3}, {0, 0, 1}}, MISS},
+    {"sphere, NaN direction", SPHERE, {{0, 0, -3}, {0, NAN, 1}}, MISS},
+    {"sphere, infinite origin", SPHERE, {{0, 0, -INFINITY}, {0, 0, 1}}, MISS},
+    {"sphere elsewhere", BALL_2, {{1, 2, 0}, {0, 0, 1}}, 2, {{1, SIDE}, {5, SIDE}}},
+
+    {"square", SQUARE, {{0.25, 0.25, -3}, {0, 0, 1}}, 1, {{3, SIDE}}},
+    {"square from above", SQUARE, {{0, 0, 3}, {0, 0, -2}}, 1, {{1.5, SIDE}}},
+    {"square at its corner", SQUARE, {{0.5, -0.5, 1}, {0, 0, -1}}, 1, {{1, SIDE}}},
+    {"square missed in x", SQUARE, {{0.500001, 0, 1}, {0, 0, -1}}, MISS},
+    {"square missed in y", SQUARE, {{0, -0.500001, 1}, {0, 0, -1}}, MISS},
+    {"square in its own plane", SQUARE, {{-3, 0, 0}, {1, 0, 0}}, MISS},
+    {"square in parallel", SQUARE, {{-3, 0, 1}, {1, 0, 0}}, MISS},
+    {"square, zero direction", SQUARE, {{0, 0, 1}, {0, 0, 0}}, MISS},
+    {"square, NaN origin", SQUARE, {{0, NAN, 1}, {0, 0, -1}}, MISS},
+    {"square, turned", SLANTED, {{0, -3, 0.25}, {0, 1, 0}}, 1, {{3, SIDE}}},
+    {"disc", DISC, {{0.7, 0.7, -3}, {0, 0, 1}}, 1, {{3, SIDE}}},
+    {"disc at its edge", DISC, {{0, 1, -3}, {0, 0, 1}}, 1, {{3, SIDE}}},
+    {"disc missed", DISC, {{0.71, 0.71, -3}, {0, 0, 1}}, MISS},
+    {"disc, NaN origin", DISC, {{NAN, 0, -3}, {0, 0, 1}}, MISS},
+    {"plane far out", PLANE, {{1e6, 1e6, -3}, {0, 0, 1}}, 1, {{3, SIDE}}},
+    {"plane in parallel", PLANE, {{0, 0, 1}, {1, 1, 0}}, MISS},
+    {"plane, NaN direction", PLANE, {{0, 0, 1}, {1, NAN, -1}}, MISS},
+
+    {"ellipsoid, long way", STRETCHED, {{0, 0, -5}, {0, 0, 1}}, 2, {{2, SIDE}, {8, SIDE}}},
+    {"ellipsoid, short way", STRETCHED, {{-5, 0, 0}, {1, 0, 0}}, 2, {{4, SIDE}, {6, SIDE}}},
+    {"ellipsoid grazed", ELLIPSOID, {{1, 0, -3}, {0, 0, 1}}, MISS},
+    {"ellipsoid, zero direction", ELLIPSOID, {{0, 0, 0}, {0, 0, 0}}, MISS},
+    {"ellipsoid, NaN origin", ELLIPSOID, {{0, NAN, -3}, {0, 0, 1}}, MISS},
+
+    {"cylinder across", CYLINDER, {{-3, 0, 0}, {1, 0, 0}}, 2, {{2, SIDE}, {4, SIDE}}},
+    {"cylinder along its axis", CYLINDER, {{0, 0, -3}, {0, 0, 1}}, 2, {{2.5, MIN_Z}, {3.5, MAX_Z}}},
+    {"cylinder, axis downwards", CYLINDER, {{0.5, 0, 3}, {0, 0, -1}}, 2, {{2.5, MAX_Z}, {3.5, MIN_Z}}},
+    {"cylinder, in by the cap, out by the side", CYLINDER, {{0, 0, -1}, {1, 0, 1}}, 2, {{0.5, MIN_Z},
+     {1, SIDE}}},
+    {"cylinder from inside", CYLINDER, {{0, 0, 0}, {0, 2, 0}}, 2, {{-0.5, SIDE}, {0.5, SIDE}}},
+    {"cylinder, along its side", CYLINDER, {{1, 0, -3}, {0, 0, 1}}, MISS},
+    {"cylinder, in the plane of a cap", CYLINDER, {{-3, 0, 0.5}, {1, 0, 0}}, MISS},
+    {"cylinder, above a cap", CYLINDER, {{-3, 0, 0.6}, {1, 0, 0}}, MISS},
+    {"cylinder grazed", CYLINDER, {{-3, 1, 0}, {1, 0, 0}}, MISS},
+    {"cylinder, zero direction inside", CYLINDER, {{0, 0, 0}, {0, 0, 0}}, MISS},
+    {"cylinder, NaN in the clipped axis", CYLINDER, {{0, 0, NAN}, {1, 0, 0}}, MISS},
+    {"cylinder, NaN direction", CYLINDER, {{-3, 0, 0}, {NAN, 0, 0}}, MISS},
+    {"cylinder, infinite direction", CYLINDER, {{-3, 0, 0}, {INFINITY, 0, 0}}, MISS},
+
+    {"cone along its axis", CONE, {{0, 0, -3}, {0, 0, 1}}, 2, {{2, MIN_Z}, {3, MAX_Z}}},
+    {"cone beside its axis", CONE, {{0.5, 0, -3}, {0, 0, 1}}, 2, {{2, MIN_Z}, {2.5, SIDE}}},
+    {"cone across", CONE, {{-3, 0, -0.5}, {1, 0, 0}}, 2, {{2.5, SIDE}, {3.5, SIDE}}},
+    {"cone parallel to its side", CONE, {{-0.5, 0, -1.5}, {1, 0, 1}}, 2, {{0.5, MIN_Z}, {1, SIDE}}},
+    {"cone, only its rim", CONE, {{0, 0, -2}, {1, 0, 1}}, MISS},
+    {"cone, the other nappe", CONE, {{-3, 0, 0.5}, {1, 0, 0}}, MISS},
+    {"cone, across at its apex", CONE, {{-3, 0, 0}, {1, 0, 0}}, MISS},
+    {"cone mirrored", MIRRORED, {{0.5, 0, 3}, {0, 0, -1}}, 2, {{2, MIN_Z}, {2.5, SIDE}}},
+
+    {"paraboloid beside its axis", PARABOLOID, {{0.5, 0, -1}, {0, 0, 1}}, 2, {{1.25, SIDE}, {2, MAX_Z}}},
+    {"paraboloid across", PARABOLOID, {{-1, 0, 0.25}, {1, 0, 0}}, 2, {{0.5, SIDE}, {1.5, SIDE}}},
+    {"paraboloid, at its vertex", PARABOLOID, {{-1, 0, 0}, {1, 0, 0}}, MISS},
+
+    {"box along x", CUBE, {{-3, 0, 0}, {1, 0, 0}}, 2, {{2.5, MIN_X}, {3.5, MAX_X}}},
+    {"box along -y", CUBE, {{0, 3, 0}, {0, -1, 0}}, 2, {{2.5, SHAPE_CUT_MAX_Y}, {3.5, SHAPE_CUT_MIN_Y}}},
+    {"box, in a face", CUBE, {{-3, 0.5, 0}, {1, 0, 0}}, MISS},
+    {"box, at an edge only", CUBE, {{-1, 0, 0}, {1, 1, 0}}, MISS},
+    {"box, NaN origin", CUBE, {{-3, NAN, 0}, {1, 0, 0}}, MISS},
+    {"box, zero direction inside", CUBE, {{0, 0, 0}, {0, 0, 0}}, MISS},
+
+    {"hyperboloid along its axis", HYPERBOLOID, {{0, 0, -2}, {0, 0, 1}}, 2, {{1, MIN_Z}, {3, MAX_Z}}},
+    {"hyperboloid, two stretches", HYPERBOLOID, {{1.25, 0, -2}, {0, 0, 1}}, 4, {{1, MIN_Z}, {1.25, SIDE},
+     {2.75, SIDE}, {3, MAX_Z}}},
+    {"two sheets, along their axis", SHEETS, {{0, 0, -2}, {0, 0, 1}}, 4, {{1, MIN_Z}, {1.5, SIDE},
+     {2.5, SIDE}, {3, MAX_Z}}},
+    {"saddle", SADDLE, {{0, 0, 3}, {0, 0, -1}}, 2, {{2, MAX_Z}, {3, SIDE}}},
+
+    {"tube across", TUBE, {{-3, 0, 0}, {1, 0, 0}}, 2, {{2, SIDE}, {4, SIDE}}},
+    {"tube along its axis", TUBE, {{0, 0, -3}, {0, 0, 1}}, MISS},
+    {"tube, in by the open end", TUBE, {{0, 0, -1}, {1, 0, 1}}, 1, {{1, SIDE}}},
+    {"open cone from below", OPEN_CONE, {{0.5, 0, -3}, {0, 0, 1}}, 1, {{2.5, SIDE}}},
+
+    {"all of space has no surface", SPACE, {{0, 0, 0}, {1, 0, 0}}, MISS},
+    {"an end at infinity is no crossing", QUARTER, {{0.5, 0.5, 3}, {0, 0, -1}}, 1, {{2, MAX_Z}}},
+    {"sides with one end each", QUARTER, {{-1, 0.5, 0}, {1, 0, 0}}, 2, {{1, MIN_X},
+     {1.8660254037844386, SIDE}}},
+};
+/* clang-format on */
+
+static void check_crossings(void **state) {
+    const struct crossing_row *row = *state;
+    struct alone a;
+    make(&a, row->shape);
+    struct crossing got[SHAPE_MAX_CROSSINGS];
+    const int count = shape_crossings(&a.p, a.ref, row->r, got);
+    assert_int_equal(count, row->count);
+    for (int i = 0; i < count; i++) {
+        assert_int_equal(got[i].part, row->want[i].part);
+        assert_near(got[i].t, row->want[i].t, 4e-16 * fabs(row->want[i].t), "t");
+    }
+}
+
+static struct first_row {
+    const char *name;
+    int shape;
+    ray r;
+    double t_min, t_max;
+    bool hit;
+    double t;
+} first_rows[] = {
+    {"sphere from afar", SPHERE, {{0, 0, -3}, {0, 0, 1}}, 0, INFINITY, true, 2},
+    {"sphere from inside", SPHERE, {{0, 0, 0}, {0, 0, 1}}, 0, INFINITY, true, 1},
+    {"sphere behind", SPHERE, {{0, 0, 3}, {0, 0, 1}}, 0, INFINITY, false, 0},
+    {"t_min is left out", SPHERE, {{0, 0, -3}, {0, 0, 1}}, 2, INFINITY, true, 4},
+    {"t_max belongs to the window", SPHERE, {{0, 0, -3}, {0, 0, 1}}, 0, 2, true, 2},
+    {"before the window's end", SPHERE, {{0, 0, -3}, {0, 0, 1}}, 0, 1.999, false, 0},
+    {"window within the sphere", SPHERE, {{0, 0, -3}, {0, 0, 1}}, 2.5, 3.5, false, 0},
+    {"square", SQUARE, {{0, 0, -3}, {0, 0, 1}}, 0, 3, true, 3},
+    {"square before t_min", SQUARE, {{0, 0, -3}, {0, 0, 1}}, 3, INFINITY, false, 0},
+    {"square behind", SQUARE, {{0, 0, 3}, {0, 0, 1}}, 0, INFINITY, false, 0},
+    {"square past t_max", SQUARE, {{0, 0, -3}, {0, 0, 1}}, 0, 2.999, false, 0},
+    {"plane at infinity", PLANE, {{0, 0, 1}, {1, 0, 0}}, 0, INFINITY, false, 0},
+    {"cylinder", CYLINDER, {{-3, 0, 0}, {1, 0, 0}}, 0, INFINITY, true, 2},
+    {"cylinder, t_min at its entry", CYLINDER, {{-3, 0, 0}, {1, 0, 0}}, 2, INFINITY, true, 4},
+    {"cylinder, t_max at its entry", CYLINDER, {{-3, 0, 0}, {1, 0, 0}}, 0, 2, true, 2},
+    {"cylinder past t_max", CYLINDER, {{-3, 0, 0}, {1, 0, 0}}, 0, 1.999, false, 0},
+    {"cylinder, window within", CYLINDER, {{-3, 0, 0}, {1, 0, 0}}, 2, 3.999, false, 0},
+    {"cylinder behind", CYLINDER, {{3, 0, 0}, {1, 0, 0}}, 0, INFINITY, false, 0},
+    {"box behind", CUBE, {{3, 0, 0}, {1, 0, 0}}, 0, INFINITY, false, 0},
+    {"hyperboloid, the second stretch", HYPERBOLOID, {{1.25, 0, -2}, {0, 0, 1}}, 1.25, INFINITY, true, 2.75},
+    {"hyperboloid, between the stretches", HYPERBOLOID, {{1.25, 0, -2}, {0, 0, 1}}, 1.25, 2.7, false, 0},
+    {"no crossing at infinity", QUARTER, {{0.5, 0.5, 0}, {0, 0, -1}}, 0, INFINITY, false, 0},
+    {"tube from inside", TUBE, {{0, 0, 0}, {0, 0.5, 0}}, 0, INFINITY, true, 2},
+};
+
+static void check_first(void **state) {
+    const struct first_row *row = *state;
+    struct alone a;
+    make(&a, row->shape);
+    struct crossing got = {-77, SHAPE_SIDE};
+    assert_int_equal(shape_first_crossing(&a.p, a.ref, row->r, row->t_min, row->t_max, &got), row->hit);
+    assert_near(got.t, row->hit ? row->t : -77, 0, "t");
+}
+
+#define R2 0.70710678118654752
+
+/* The surface at the first crossing in front of the ray. */
+static struct surface_row {
+    const char *name;
+    int shape;
+    ray r;
+    vec3 point, normal;
+} surface_rows[] = {
+    {"sphere", BALL_2, {{1, 2, -9}, {0, 0, 1}}, {1, 2, 1}, {0, 0, -1}},
+    {"sphere from inside", BALL_2, {{1, 2, 3}, {0, 3, 0}}, {1, 4, 3}, {0, 1, 0}},
+    {"square from above", SQUARE, {{0.25, 0, 3}, {0, 0, -1}}, {0.25, 0, 0}, {0, 0, 1}},
+    {"square from below", SQUARE, {{0.25, 0, -3}, {0, 0, 1}}, {0.25, 0, 0}, {0, 0, 1}},
+    {"square turned, its +z", SLANTED, {{0.25, 3, 0}, {0, -1, 0}}, {0.25, 0, 0}, {0, -1, 0}},
+    {"ellipsoid at its long end", STRETCHED, {{0, 0, -9}, {0, 0, 1}}, {0, 0, -3}, {0, 0, -1}},
+    {"ellipsoid, by the inverse transpose", STRETCHED, {{R2, 9, 0}, {0, -1, 0}},
+     {R2, 1.4142135623730951, 0}, {0.89442719099991588, 0.44721359549995794, 0}},
+    {"cylinder, its side", CYLINDER, {{0.6, 9, 0.25}, {0, -1, 0}}, {0.6, 0.8, 0.25}, {0.6, 0.8, 0}},
+    {"cylinder, upper cap", CYLINDER, {{0.5, 0, 9}, {0, 0, -1}}, {0.5, 0, 0.5}, {0, 0, 1}},
+    {"cylinder, lower cap", CYLINDER, {{0.5, 0, -9}, {0, 0, 1}}, {0.5, 0, -0.5}, {0, 0, -1}},
+    {"cone, its normal has a z", CONE, {{9, 0, -0.5}, {-1, 0, 0}}, {0.5, 0, -0.5}, {R2, 0, R2}},
+    {"cone, its base", CONE, {{0.5, 0, -9}, {0, 0, 1}}, {0.5, 0, -1}, {0, 0, -1}},
+    {"cone, its apex from above", CONE, {{0, 0, 9}, {0, 0, -1}}, {0, 0, 0}, {0, 0, 1}},
+    {"cone mirrored", MIRRORED, {{9, 0, 0.5}, {-1, 0, 0}}, {0.5, 0, 0.5}, {R2, 0, -R2}},
+    {"paraboloid", PARABOLOID, {{0.5, 0, -9}, {0, 0, 1}}, {0.5, 0, 0.25}, {R2, 0, -R2}},
+    {"box, -x", CUBE, {{-9, 0.1, 0.2}, {1, 0, 0}}, {-0.5, 0.1, 0.2}, {-1, 0, 0}},
+    {"box, +y", CUBE, {{0.1, 9, 0.2}, {0, -1, 0}}, {0.1, 0.5, 0.2}, {0, 1, 0}},
+    {"hyperboloid", HYPERBOLOID, {{9, 0, 0}, {-1, 0, 0}}, {1, 0, 0}, {1, 0, 0}},
+    {"tube from inside, still outwards", TUBE, {{0, 0, 0}, {0, 1, 0}}, {0, 1, 0}, {0, 1, 0}},
+};
+
+static void check_surface(void **state) {
+    const struct surface_row *row = *state;
+    struct alone a;
+    make(&a, row->shape);
+    struct crossing crossing;
+    assert_true(shape_first_crossing(&a.p, a.ref, row->r, 0, INFINITY, &crossing));
+    const struct surface got = shape_surface(&a.p, a.ref, row->r, crossing);
+    assert_vec3_near(got.point, row->point, 1e-15, "point");
+    assert_vec3_near(got.normal, row->normal, 1e-15, "normal");
+    assert_true(got.error >= 0 && got.error <= 1e-13);
+}
+
+/* On the apex itself, where there is no normal, any will do that is one. */
+static void check_apex(void **state) {
+    (void)state;
+    const ray rays[] = {
+        {{-3, 0, -1e-9}, {1, 0, 0}}, {{-9, 3, -1e-300}, {3, -1, 0}}, {{1, 2, 3}, {-1, -2, -3}}};
+    struct alone a;
+    make(&a, CONE);
+    for (size_t i = 0; i < COUNT(rays); i++) {
+        struct crossing crossing = {i == 2 ? 1 : 3, SHAPE_SIDE};
+        const struct surface got = shape_surface(&a.p, a.ref, rays[i], crossing);
+        assert_near(vec3_length(got.normal), 1, 1e-15, "length of the normal");
+        assert_vec3_near(got.point, (vec3){0, 0, 0}, 2e-9, "point");
+        assert_true(got.error >= 0 && got.error < 1e-7);
+    }
+}
+
+static struct contains_row {
+    const char *name;
+    int shape;
+    vec3 point;
+    bool solid, inside;
+} contains_rows[] = {
+    {"sphere", SPHERE, {0.5, 0.5, 0.5}, true, true},
+    {"on a sphere", SPHERE, {1, 0, 0}, true, false},
+    {"outside a sphere", BALL_2, {0, 0, 0}, true, false},
+    {"square", SQUARE, {0, 0, 0}, false, false},
+    {"plane", PLANE, {0, 0, -1}, false, false},
+    {"cylinder", CYLINDER, {0.9, 0, 0.4}, true, true},
+    {"on a cylinder", CYLINDER, {0, 1, 0}, true, false},
+    {"on its cap", CYLINDER, {0, 0, 0.5}, true, false},
+    {"above its cap", CYLINDER, {0, 0, 0.6}, true, false},
+    {"cone", CONE, {0.4, 0, -0.5}, true, true},
+    {"the cone's other nappe", CONE, {0.4, 0, 0.5}, true, false},
+    {"box", CUBE, {0.49, -0.49, 0.49}, true, true},
+    {"beside a box", CUBE, {0.51, 0, 0}, true, false},
+    {"stretched", STRETCHED, {0, 0, 2.9}, true, true},
+    {"tube", TUBE, {0, 0, 0}, false, false},
+    {"NaN", CYLINDER, {NAN, 0, 0}, true, false},
+};
+
+static void check_contains(void **state) {
+    const struct contains_row *row = *state;
+    struct alone a;
+    make(&a, row->shape);
+    assert_int_equal(shape_is_solid(&a.p, a.ref), row->solid);
+    assert_int_equal(shape_contains(&a.p, a.ref, row->point), row->inside);
+}
+
+static struct bounds_row {
+    const char *name;
+    int shape;
+    box3 want;
+} bounds_rows[] = {
+    {"sphere", BALL_2, BOX(-1, 0, 1, 3, 4, 5)},
+    {"square", SQUARE, BOX(-0.5, -0.5, 0, 0.5, 0.5, 0)},
+    {"square, turned", SLANTED, BOX(-0.5, 0, -0.5, 0.5, 0, 0.5)},
+    {"disc", DISC, BOX(-1, -1, 0, 1, 1, 0)},
+    {"plane", PLANE, BOX(-INFINITY, -INFINITY, -INFINITY, INFINITY, INFINITY, INFINITY)},
+    {"ellipsoid", STRETCHED, BOX(-1, -2, -3, 1, 2, 3)},
+    {"cylinder", CYLINDER, BOX(-1, -1, -0.5, 1, 1, 0.5)},
+    {"cone", CONE, BOX(-1, -1, -1, 1, 1, 0)},
+    {"cone mirrored", MIRRORED, BOX(-1, -1, 0, 1, 1, 1)},
+    {"paraboloid", PARABOLOID, BOX(-1, -1, 0, 1, 1, 1)},
+    {"box", CUBE, BOX(-0.5, -0.5, -0.5, 0.5, 0.5, 0.5)},
+    {"hyperboloid, tighter than its extent", HYPERBOLOID,
+     BOX(-1.4142135623730951, -1.4142135623730951, -1, 1.4142135623730951, 1.4142135623730951, 1)},
+    {"no end", SPACE, BOX(-INFINITY, -INFINITY, -INFINITY, INFINITY, INFINITY, INFINITY)},
+};
+
+static void check_bounds(void **state) {
+    const struct bounds_row *row = *state;
+    struct alone a;
+    make(&a, row->shape);
+    const box3 got = shape_bounds(&a.p, a.ref), want = row->want;
+    if (!box3_is_bounded(want)) {
+        assert_memory_equal(&got, &want, sizeof want);
+        return;
+    }
+    assert_vec3_near(got.min, want.min, 1e-13, "min");
+    assert_vec3_near(got.max, want.max, 1e-13, "max");
+    assert_true(got.min.x <= want.min.x && got.min.y <= want.min.y && got.min.z <= want.min.z);
+    assert_true(got.max.x >= want.max.x && got.max.y >= want.max.y && got.max.z >= want.max.z);
+}
+
+int main(void) {
+    struct CMUnitTest tests[COUNT(crossing_rows) + COUNT(first_rows) + COUNT(surface_rows) +
+                            COUNT(contains_rows) + COUNT(bounds_rows) + 1];
+    size_t n = 0;
+    for (size_t i = 0; i < COUNT(crossing_rows); i++)
+        tests[n++] =
+            (struct CMUnitTest){crossing_rows[i].name, check_crossings, NULL, NULL, &crossing_rows[i]};
+    for (size_t i = 0; i < COUNT(first_rows); i++)
+        tests[n++] = (struct CMUnitTest){first_rows[i].name, check_first, NULL, NULL, &first_rows[i]};
+    for (size_t i = 0; i < COUNT(surface_rows); i++)
+        tests[n++] = (struct CMUnitTest){surface_rows[i].name, check_surface, NULL, NULL, &surface_rows[i]};
+    tests[n++] = (struct CMUnitTest){"the apex of a cone has a normal", check_apex, NULL, NULL, NULL};
+    for (size_t i = 0; i < COUNT(contains_rows); i++)
+        tests[n++] =
+            (struct CMUnitTest){contains_rows[i].name, check_contains, NULL, NULL, &contains_rows[i]};
+    for (size_t i = 0; i < COUNT(bounds_rows); i++)
+        tests[n++] = (struct CMUnitTest){bounds_rows[i].name, check_bounds, NULL, NULL, &bounds_rows[i]};
+    return cmocka_run_group_tests_name("shape", tests, NULL, NULL);
+}

@@ -1,0 +1,644 @@
+/* Shapes under random maps and random rays, against what must hold of each and against slower
+ * arithmetic: long double and bisection. The seed is printed; SHAPE_SEED=n in the environment sets it. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+#include "shape_forms.h"
+
+enum { SPHERE = FORM_COUNT, SQUARE, DISC, SUBJECT_COUNT };
+
+static const char *subject_name(int kind) {
+    static const char *const others[] = {"sphere", "square", "disc"};
+    return kind < FORM_COUNT ? form_names[kind] : others[kind - FORM_COUNT];
+}
+
+/* ---- random numbers: splitmix64 */
+
+static uint64_t seed = 20081;
+static uint64_t random_state;
+
+static double uniform(double low, double high) {
+    uint64_t z = random_state += 0x9e3779b97f4a7c15;
+    z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9;
+    z = (z ^ z >> 27) * 0x94d049bb133111eb;
+    return low + (high - low) * (double)((z ^ z >> 31) >> 11) * 0x1p-53;
+}
+
+static void begin(int kind) { random_state = seed * 1000003 + (uint64_t)kind; }
+
+static bool chance(double probability) { return uniform(0, 1) < probability; }
+
+/* 10^e: repeated products will do for a test. */
+static double power_of_ten(double low, double high) {
+    double e = uniform(low, high), power = 1;
+    for (; e >= 1; e--) power *= 10;
+    for (; e < 0; e++) power /= 10;
+    return power * (1 + 9 * e);
+}
+
+/* One statement each: C does not order the calls in one. */
+static vec3 random_in(box3 b) {
+    const double x = uniform(b.min.x, b.max.x);
+    const double y = uniform(b.min.y, b.max.y);
+    const double z = uniform(b.min.z, b.max.z);
+    return (vec3){x, y, z};
+}
+
+static vec3 random_unit(void) {
+    for (;;) {
+        const vec3 v = random_in((box3){{-1, -1, -1}, {1, 1, 1}});
+        const double length = vec3_length(v);
+        if (length < 1 && length > 0.1) return vec3_scale(v, 1 / length);
+    }
+}
+
+static affine random_rotation(void) { return affine_rotate(random_unit(), uniform(-180, 180)); }
+
+/* A scale per axis, mirrored as often as not: alike, a little apart, or 1 : 1000 : 0.001. */
+static affine random_scale(bool harsh) {
+    static const vec3 apart[] = {{1, 1000, 0.001}, {0.001, 1, 1000}, {1000, 0.001, 1}, {0.001, 1000, 1}};
+    vec3 by = {1, 1, 1};
+    if (harsh && chance(0.3))
+        by = apart[(int)uniform(0, 4)];
+    else if (chance(0.6))
+        by = random_in((box3){{0.3, 0.3, 0.3}, {3, 3, 3}});
+    return affine_scale(
+        (vec3){chance(0.5) ? by.x : -by.x, chance(0.5) ? by.y : -by.y, chance(0.5) ? by.z : -by.z});
+}
+
+static affine random_shear(void) {
+    const double s = uniform(-2, 2);
+    return affine_columns((vec3){1, 0, 0}, (vec3){s, 1, 0}, (vec3){uniform(-1, 1), 0, 1}, (vec3){0, 0, 0});
+}
+
+/* world_from_object: scenes of size 1e-4 .. 1e6, near the origin or a million sizes from it. */
+static affine random_map(bool harsh) {
+    const double size = power_of_ten(-4, 6);
+    affine map = affine_scale(vec3_all(size));
+    if (chance(0.8)) map = affine_compose(map, random_rotation());
+    if (chance(0.3)) map = affine_compose(map, random_shear());
+    map = affine_compose(map, random_scale(harsh));
+    if (chance(0.5)) map = affine_compose(map, random_rotation());
+    const double away = chance(0.2) ? 0 : chance(0.3) ? 1e6 : 10;
+    return affine_compose(affine_translate(vec3_scale(random_unit(), away * size)), map);
+}
+
+/* ---- one shape under one map */
+
+struct subject {
+    struct alone a;
+    int kind;
+    affine map;    /* world_from_object; of a sphere, scale and translation alone */
+    box3 extent;   /* object space */
+    double length; /* of its longest side in the world */
+};
+
+static void make_subject(struct subject *s, int kind, const struct quadric_form *form, affine map) {
+    s->kind = kind;
+    s->map = map;
+    s->extent =
+        form ? form->extent : (box3)BOX(-1, -1, kind == SPHERE ? -1 : 0, 1, 1, kind == SPHERE ? 1 : 0);
+    if (kind == SPHERE) {
+        const double radius = vec3_length(affine_column(map, 0));
+        s->map = affine_compose(affine_translate(affine_column(map, 3)), affine_scale(vec3_all(radius)));
+        alone_sphere(&s->a, affine_column(map, 3), radius);
+    } else if (form) {
+        assert_true(alone_quadric(&s->a, form, map));
+    } else {
+        assert_true(alone_flat(&s->a, kind == DISC ? FLAT_DISC : FLAT_SQUARE, map));
+    }
+    const box3 b = s->extent;
+    s->length = 0;
+    for (int i = 0; i < 8; i++) {
+        const vec3 d = {b.max.x - b.min.x, i & 1 ? b.max.y - b.min.y : b.min.y - b.max.y,
+                        i & 2 ? b.max.z - b.min.z : b.min.z - b.max.z};
+        const double length = vec3_length(affine_direction(&s->map, d));
+        if (length > s->length) s->length = length;
+    }
+}
+
+static const struct quadric_form *form_of(int kind) { return kind < FORM_COUNT ? &forms[kind] : NULL; }
+
+static void random_subject(struct subject *s, int kind, bool harsh) {
+    make_subject(s, kind, form_of(kind), random_map(harsh));
+}
+
+static vec3 random_direction(const struct subject *s) {
+    const vec3 d = random_unit();
+    return chance(0.5) ? d : vec3_normalize(affine_direction(&s->map, d));
+}
+
+/* Towards a point of the extent, from inside of it to a hundred times its length away. */
+static ray random_ray(const struct subject *s) {
+    const vec3 target = affine_point(&s->map, random_in(s->extent)), d = random_direction(s);
+    const double away = s->length * power_of_ten(-2, 2), speed = power_of_ten(-2, 2);
+    return (ray){vec3_madd(target, -away, d), vec3_scale(d, speed)};
+}
+
+/* ---- the same shapes in long double, straight from their definition */
+
+typedef struct {
+    long double x, y, z;
+} lvec;
+
+static lvec lvec_of(vec3 v) { return (lvec){v.x, v.y, v.z}; }
+
+static lvec lmadd(lvec a, long double t, vec3 d) {
+    return (lvec){a.x + t * (long double)d.x, a.y + t * (long double)d.y, a.z + t * (long double)d.z};
+}
+
+static long double lrow(const double m[4], lvec p) { return m[0] * p.x + m[1] * p.y + m[2] * p.z + m[3]; }
+
+static lvec lobject(const affine *m, lvec p) {
+    return (lvec){lrow(m->m[0], p), lrow(m->m[1], p), lrow(m->m[2], p)};
+}
+
+static long double lform(const struct quadric_form *f, lvec p) {
+    return f->xx * p.x * p.x + f->yy * p.y * p.y + f->zz * p.z * p.z + f->xy * p.x * p.y + f->yz * p.y * p.z +
+           f->zx * p.z * p.x + f->x * p.x + f->y * p.y + f->z * p.z + f->constant;
+}
+
+/* The function whose zero is the part, of a point of the world; negative inside. */
+static long double lvalue(const struct subject *s, int part, lvec p) {
+    if (s->kind == SPHERE) {
+        const lvec q = lmadd(p, -1, s->a.sphere.center);
+        return q.x * q.x + q.y * q.y + q.z * q.z - (long double)s->a.sphere.radius * s->a.sphere.radius;
+    }
+    if (s->kind > SPHERE) return lrow(s->a.flat.object_from_world.m[2], p);
+    const struct quadric_form *f = s->a.quadric.form;
+    const lvec q = lobject(&s->a.quadric.object_from_world, p);
+    switch (part) {
+    case SHAPE_CUT_MIN_X: return f->clip.min.x - q.x;
+    case SHAPE_CUT_MAX_X: return q.x - f->clip.max.x;
+    case SHAPE_CUT_MIN_Y: return f->clip.min.y - q.y;
+    case SHAPE_CUT_MAX_Y: return q.y - f->clip.max.y;
+    case SHAPE_CUT_MIN_Z: return f->clip.min.z - q.z;
+    case SHAPE_CUT_MAX_Z: return q.z - f->clip.max.z;
+    default: return lform(f, q);
+    }
+}
+
+static int part_count(const struct subject *s) { return s->kind < FORM_COUNT ? 7 : 1; }
+
+/* The gradient in the world by central differences, which for a quadric have no error but rounding. */
+static vec3 lgradient(const struct subject *s, int part, vec3 at, double step) {
+    double g[3];
+    for (int i = 0; i < 3; i++) {
+        const vec3 e = {i == 0, i == 1, i == 2};
+        const lvec p = lvec_of(at);
+        g[i] =
+            (double)((lvalue(s, part, lmadd(p, step, e)) - lvalue(s, part, lmadd(p, -step, e))) / (2 * step));
+    }
+    return (vec3){g[0], g[1], g[2]};
+}
+
+/* A step that leads to about one unit of object space at most. */
+static double step_of(const struct subject *s) {
+    if (s->kind == SPHERE) return s->a.sphere.radius;
+    const affine *m = s->kind < FORM_COUNT ? &s->a.quadric.object_from_world : &s->a.flat.object_from_world;
+    double most = 0;
+    for (int i = 0; i < 3; i++) most = box3_upper(most, vec3_max_abs(affine_column(*m, i)));
+    return 1 / most;
+}
+
+/* ---- surfaces */
+
+/* How far a normal may be off: the map rounds the point where it is taken, and the point itself is off
+ * by the error, each times the curvature. */
+static double normal_rounding(const struct subject *s, vec3 p, double error, double slope) {
+    const double step = step_of(s);
+    if (s->kind >= SPHERE) return 1e-9 + 4 * error / step;
+    const double map = 1e-14 * vec3_max_abs(affine_magnitude(&s->a.quadric.object_from_world, p));
+    return 1e-10 + 10 * (map / step + error / (step * step)) / slope;
+}
+
+static void check_one_surface(const struct subject *s, ray r, struct crossing c) {
+    const struct surface got = shape_surface(&s->a.p, s->a.ref, r, c);
+    const double step = step_of(s);
+    const vec3 gradient = lgradient(s, (int)c.part, got.point, step);
+    const double slope = vec3_length(gradient);
+    const long double off = fabsl(lvalue(s, (int)c.part, lvec_of(got.point))) / slope;
+    if (!(fabs(vec3_length(got.normal) - 1) < 1e-15))
+        fail_msg("normal of length %.17g", vec3_length(got.normal));
+    if (!(off <= got.error)) fail_msg("off the surface by %Lg, error %g", off, got.error);
+    if (!(got.error < 1e-6 * (s->length + vec3_max_abs(got.point)))) fail_msg("error of %g", got.error);
+    const vec3 drift = vec3_sub(got.point, ray_at(r, c.t));
+    const double distance = s->length + vec3_max_abs(r.org) + vec3_max_abs(got.point);
+    if (!(vec3_max_abs(drift) < 1e-9 * distance))
+        fail_msg("moved by %g of %g", vec3_max_abs(drift), distance);
+    const vec3 turn = vec3_sub(got.normal, vec3_scale(gradient, 1 / slope));
+    const double vague = normal_rounding(s, got.point, got.error, slope);
+    if (!(vec3_max_abs(turn) < vague)) fail_msg("normal off by %g, not %g", vec3_max_abs(turn), vague);
+}
+
+static void check_surfaces(void **state) {
+    const int kind = *(int *)*state;
+    begin(kind);
+    int seen = 0;
+    for (int i = 0; i < 40000; i++) {
+        struct subject s;
+        random_subject(&s, kind, true);
+        const ray r = random_ray(&s);
+        struct crossing c[SHAPE_MAX_CROSSINGS];
+        const int count = shape_crossings(&s.a.p, s.a.ref, r, c);
+        for (int k = 0; k < count; k++) check_one_surface(&s, r, c[k]);
+        seen += count;
+    }
+    assert_true(seen > 4000);
+}
+
+/* ---- rays that leave from a surface */
+
+/* From all over to closer to the tangent plane than doubles can tell; against the normal where
+ * `side` is -1. Its length is anything. */
+static vec3 random_leaving(const struct subject *s, vec3 normal, double side) {
+    vec3 d = random_direction(s);
+    if (chance(0.6)) {
+        d = vec3_madd(d, -vec3_dot(d, normal), normal);
+        d = vec3_madd(vec3_normalize(d), side * (chance(0.2) ? 0 : power_of_ten(-18, 0)), normal);
+    }
+    if (side * vec3_dot(d, normal) < 0) d = vec3_neg(d);
+    return vec3_scale(d, power_of_ten(-2, 2));
+}
+
+static int crossings_ahead(const struct subject *s, ray r) {
+    struct crossing c[SHAPE_MAX_CROSSINGS];
+    const int count = shape_crossings(&s->a.p, s->a.ref, r, c);
+    int ahead = 0;
+    for (int i = 0; i < count; i++) ahead += c[i].t > 0;
+    return ahead;
+}
+
+/* How far the rounding of the map alone moves a cut face in the world. */
+static double face_rounding(const struct subject *s, int part, vec3 p) {
+    if (part == SHAPE_SIDE) return 0;
+    const affine *m = &s->a.quadric.object_from_world;
+    const int axis = (part - 1) / 2;
+    const vec3 size = affine_magnitude(m, p), row = {m->m[axis][0], m->m[axis][1], m->m[axis][2]};
+    return 1e-14 * (axis == 0 ? size.x : axis == 1 ? size.y : size.z) / vec3_length(row);
+}
+
+/* Whether the point is well within all parts but `part`, and there is room behind that. */
+static bool has_room(const struct subject *s, int part, struct surface at) {
+    for (int i = 0; i < part_count(s); i++) {
+        const vec3 p = vec3_madd(at.point, i == part ? -4 * at.error : 0, at.normal);
+        const long double value = lvalue(s, i, lvec_of(p));
+        if (i == part && !(value < 0)) return false;
+        if (i == part || value == -INFINITY || (s->kind == CUBE && i == SHAPE_SIDE)) continue;
+        const double slope = vec3_length(lgradient(s, i, at.point, step_of(s)));
+        if (!(-value > slope * (4 * at.error + face_rounding(s, i, at.point)))) return false;
+    }
+    return true;
+}
+
+/* Outwards, a convex shape is not met again; inwards, the far wall once. With half of the error
+ * already, so that some margin is known to be there. Returns the failures; *tried counts the rays. */
+static int check_leaving(const struct subject *s, ray r, struct crossing c, int *tried) {
+    const struct surface at = shape_surface(&s->a.p, s->a.ref, r, c);
+    const double offset = 0.5 * at.error;
+    const bool solid = s->kind <= SPHERE;
+    const ray out = {vec3_madd(at.point, offset, at.normal), random_leaving(s, at.normal, 1)};
+    const ray in = {vec3_madd(at.point, -offset, at.normal), random_leaving(s, at.normal, -1)};
+    int bad = crossings_ahead(s, out) != 0 || shape_contains(&s->a.p, s->a.ref, out.org);
+    *tried += 1;
+    if (solid && !has_room(s, (int)c.part, at)) return bad;
+    *tried += 1;
+    bad += crossings_ahead(s, in) != (solid ? 1 : 0) || shape_contains(&s->a.p, s->a.ref, in.org) != solid;
+    return bad;
+}
+
+static void check_offsets(void **state) {
+    const int kind = *(int *)*state;
+    begin(kind);
+    int seen = 0, tried = 0, bad = 0;
+    for (int i = 0; i < 100000; i++) {
+        struct subject s;
+        random_subject(&s, kind, true);
+        const ray r = random_ray(&s);
+        struct crossing c[SHAPE_MAX_CROSSINGS];
+        const int count = shape_crossings(&s.a.p, s.a.ref, r, c);
+        for (int k = 0; k < count; k++) bad += check_leaving(&s, r, c[k], &tried);
+        seen += count;
+    }
+    if (bad) fail_msg("%d of %d rays left to the wrong side", bad, tried);
+    assert_true(seen > 10000 && tried > 1.99 * seen);
+}
+
+/* ---- crossings */
+
+enum { SAMPLES = 400 };
+
+static bool linside(const struct subject *s, lvec p) {
+    for (int i = 0; i < part_count(s); i++)
+        if (!(lvalue(s, i, p) < 0)) return false;
+    return true;
+}
+
+static bool lcut_inside(const struct subject *s, lvec p) {
+    for (int i = 1; i < part_count(s); i++)
+        if (!(lvalue(s, i, p) <= 0)) return false;
+    return true;
+}
+
+/* Where, between two places that differ in `inside`, it changes. */
+static long double bisect(const struct subject *s, ray r, long double low, long double high, bool open) {
+    const lvec org = lvec_of(r.org);
+    const bool from = open ? lvalue(s, 0, lmadd(org, low, r.dir)) < 0 : linside(s, lmadd(org, low, r.dir));
+    for (int i = 0; i < 80; i++) {
+        const long double mid = (low + high) / 2;
+        const lvec p = lmadd(org, mid, r.dir);
+        *((open ? lvalue(s, 0, p) < 0 : linside(s, p)) == from ? &low : &high) = mid;
+    }
+    return low;
+}
+
+/* The crossings found by walking along the line in steps; closer ones it may step over. */
+static int walk(const struct subject *s, ray r, double start, double step, long double found[SAMPLES]) {
+    const bool open = s->a.quadric.form->open;
+    int count = 0;
+    bool before = false;
+    for (int i = 0; i <= SAMPLES; i++) {
+        const lvec p = lmadd(lvec_of(r.org), start + i * step, r.dir);
+        const bool now = open ? lvalue(s, 0, p) < 0 : linside(s, p);
+        if (i > 0 && now != before) {
+            const long double t = bisect(s, r, start + (i - 1) * step, start + i * step, open);
+            if (!open || lcut_inside(s, lmadd(lvec_of(r.org), t, r.dir))) found[count++] = t;
+        }
+        before = now;
+    }
+    return count;
+}
+
+/* Whether any two crossings of the line are too close for the steps of the walk, or one is at its end. */
+static bool is_crowded(const struct crossing *c, int count, double start, double step) {
+    for (int i = 0; i < count; i++) {
+        if (c[i].t < start + step || c[i].t > start + (SAMPLES - 1) * step) return true;
+        if (i > 0 && c[i].t - c[i - 1].t < 2 * step) return true;
+    }
+    return false;
+}
+
+/* Of something open, the roots that the clip leaves out count too, and its rim is nowhere certain. */
+static bool is_crowded_open(const struct subject *s, ray r, double step) {
+    struct quadric_form whole = *s->a.quadric.form;
+    whole.clip = BOX3_ALL;
+    struct subject all = *s;
+    all.a.p.quadrics = &all.a.quadric;
+    all.a.quadric.form = &whole;
+    struct crossing c[SHAPE_MAX_CROSSINGS];
+    const int count = shape_crossings(&all.a.p, all.a.ref, r, c);
+    for (int i = 0; i < count; i++)
+        if (lcut_inside(s, lmadd(lvec_of(r.org), c[i].t - 1e-6 * step, r.dir)) !=
+            lcut_inside(s, lmadd(lvec_of(r.org), c[i].t + 1e-6 * step, r.dir)))
+            return true;
+    return count == 2 && c[1].t - c[0].t < 2 * step;
+}
+
+/* Returns whether there was something to compare. */
+static bool compare_with_walk(const struct subject *s, ray r, double length) {
+    struct crossing c[SHAPE_MAX_CROSSINGS];
+    const int count = shape_crossings(&s->a.p, s->a.ref, r, c);
+    const double middle =
+        -vec3_dot(vec3_sub(r.org, affine_point(&s->map, (vec3){0, 0, 0})), r.dir) / vec3_dot(r.dir, r.dir);
+    const double half = length / vec3_length(r.dir), start = middle - half * 1.01, step = 2 * half / SAMPLES;
+    long double found[SAMPLES];
+    if (is_crowded(c, count, start, step)) return false;
+    if (s->a.quadric.form->open && is_crowded_open(s, r, step)) return false;
+    const int walked = walk(s, r, start, step, found);
+    if (walked == count + 2) { /* one that is grazed to rounding may be missed */
+        for (int i = 0; i + 1 < walked; i++)
+            if (found[i + 1] - found[i] < 1e-6 * step) return false;
+    }
+    if (walked != count) fail_msg("%d crossings, walked over %d", count, walked);
+    for (int i = 0; i < count; i++)
+        if (!(fabsl(c[i].t - found[i]) < 1e-5 * step)) fail_msg("t %.17g, walked %.17Lg", c[i].t, found[i]);
+    return count > 0;
+}
+
+static void check_walks(void **state) {
+    const int kind = *(int *)*state;
+    begin(kind);
+    int compared = 0;
+    for (int i = 0; i < 3000; i++) {
+        struct subject s;
+        random_subject(&s, kind, false);
+        compared += compare_with_walk(&s, random_ray(&s), 2 * s.length);
+    }
+    assert_true(compared > 500);
+}
+
+static double coefficient(void) { return chance(0.3) ? 0 : uniform(-1, 1); }
+
+static void random_form(struct quadric_form *f) {
+    const bool walls[] = {chance(0.6), chance(0.6), chance(0.6), chance(0.6), chance(0.6), chance(0.6)};
+    const box3 clip = {{walls[0] ? uniform(-2, -0.2) : -INFINITY, walls[1] ? uniform(-2, -0.2) : -INFINITY,
+                        walls[2] ? uniform(-2, -0.2) : -INFINITY},
+                       {walls[3] ? uniform(0.2, 2) : INFINITY, walls[4] ? uniform(0.2, 2) : INFINITY,
+                        walls[5] ? uniform(0.2, 2) : INFINITY}};
+    *f = (struct quadric_form){.xx = coefficient(),
+                               .yy = coefficient(),
+                               .zz = coefficient(),
+                               .xy = coefficient(),
+                               .yz = coefficient(),
+                               .zx = coefficient(),
+                               .x = coefficient(),
+                               .y = coefficient(),
+                               .z = coefficient(),
+                               .constant = coefficient(),
+                               .clip = clip,
+                               .extent = clip,
+                               .open = chance(0.3)};
+}
+
+static void check_any_quadric(void **state) {
+    (void)state;
+    begin(SUBJECT_COUNT);
+    int compared = 0;
+    for (int i = 0; i < 30000; i++) {
+        struct quadric_form form;
+        struct subject s;
+        random_form(&form);
+        make_subject(&s, 0, &form, chance(0.5) ? AFFINE_IDENTITY : random_map(false));
+        s.extent = (box3)BOX(-2, -2, -2, 2, 2, 2);
+        s.length = 4 * vec3_max_abs(affine_column(s.map, 0));
+        compared += compare_with_walk(&s, random_ray(&s), 3 * s.length);
+    }
+    assert_true(compared > 5000);
+}
+
+/* In order, in pairs, the middle of each pair inside and of each gap outside; and the first crossing
+ * of a window is the first of them in it, to the bit. */
+static void check_one_list(const struct subject *s, ray r) {
+    struct crossing c[SHAPE_MAX_CROSSINGS], first;
+    const int count = shape_crossings(&s->a.p, s->a.ref, r, c);
+    const bool solid = shape_is_solid(&s->a.p, s->a.ref);
+    if (solid) assert_true(count % 2 == 0);
+    for (int i = 0; i + 1 < count; i++) {
+        assert_true(c[i].t < c[i + 1].t);
+        const double gap = (c[i + 1].t - c[i].t) * vec3_length(r.dir);
+        const vec3 middle = ray_at(r, (c[i].t + c[i + 1].t) / 2);
+        if (!solid || gap < 1e-3 * s->length) continue;
+        if (shape_contains(&s->a.p, s->a.ref, middle) != (i % 2 == 0)) fail_msg("middle %d of %d", i, count);
+    }
+    const double span = count ? c[count - 1].t - c[0].t : 1, low = count ? c[0].t - span : 0;
+    const double a = chance(0.2) && count ? c[0].t : low + uniform(0, 3) * span, b = a + uniform(0, 2) * span;
+    int i = 0;
+    while (i < count && !(c[i].t > a)) i++;
+    const bool want = i < count && c[i].t <= b;
+    assert_int_equal(shape_first_crossing(&s->a.p, s->a.ref, r, a, b, &first), want);
+    if (want) assert_true(first.t == c[i].t && first.part == c[i].part);
+}
+
+static void check_lists(void **state) {
+    const int kind = *(int *)*state;
+    begin(kind);
+    for (int i = 0; i < 30000; i++) {
+        struct subject s;
+        random_subject(&s, kind, false);
+        check_one_list(&s, random_ray(&s));
+    }
+}
+
+/* ---- rims and edges */
+
+/* A ray towards a point on the rim of a cap, pulled a little inwards, goes in and out; at the rim
+ * itself it does that or misses, but never leaks. */
+static void check_rims(void **state) {
+    const int kind = *(int *)*state;
+    const struct quadric_form *f = &forms[kind];
+    const double z = f->extent.min.z, radius = sqrt(-(f->zz * z * z + f->constant));
+    begin(kind);
+    for (int i = 0; i < 100000; i++) {
+        struct subject s;
+        random_subject(&s, kind, false);
+        const bool near = vec3_length(affine_column(s.map, 3)) < 1e4 * s.length;
+        const double within = near && chance(0.5) ? 1e-7 : 0;
+        const vec3 around = vec3_normalize((vec3){uniform(-1, 1), uniform(-1, 1), 0});
+        const vec3 rim = vec3_madd((vec3){0, 0, z}, radius, around), middle = box3_center(f->extent);
+        const vec3 at = vec3_madd(rim, within, vec3_sub(middle, rim));
+        const vec3 target = affine_point(&s.map, at), d = random_direction(&s);
+        const ray r = {vec3_madd(target, -s.length * uniform(2, 9), d), d};
+        struct crossing c[SHAPE_MAX_CROSSINGS];
+        const int count = shape_crossings(&s.a.p, s.a.ref, r, c);
+        if (count % 2 != 0 || (within > 0 && count == 0)) fail_msg("%d crossings, %g within", count, within);
+    }
+}
+
+/* Two squares side by side, each with a transform of its own: no ray passes between them. */
+static void check_crack(void **state) {
+    (void)state;
+    begin(SQUARE);
+    for (int i = 0; i < 200000; i++) {
+        struct subject left, right;
+        const affine map = random_map(false);
+        make_subject(&left, SQUARE, NULL, map);
+        make_subject(&right, SQUARE, NULL, affine_compose(map, affine_translate((vec3){1, 0, 0})));
+        const vec3 target = affine_point(&map, (vec3){0.5, uniform(-0.49, 0.49), 0}),
+                   d = random_direction(&left);
+        const ray r = {vec3_madd(target, -left.length * power_of_ten(-1, 3), d), d};
+        if (!crossings_ahead(&left, r) && !crossings_ahead(&right, r)) fail_msg("a crack at ray %d", i);
+    }
+}
+
+/* ---- bounds */
+
+static box3 grow(box3 b, double by) {
+    return (box3){vec3_sub(b.min, vec3_all(by)), vec3_add(b.max, vec3_all(by))};
+}
+
+static bool box_holds(box3 b, vec3 p) {
+    return b.min.x <= p.x && p.x <= b.max.x && b.min.y <= p.y && p.y <= b.max.y && b.min.z <= p.z &&
+           p.z <= b.max.z;
+}
+
+static void check_bounds_hold(void **state) {
+    const int kind = *(int *)*state;
+    begin(kind);
+    for (int i = 0; i < 30000; i++) {
+        struct subject s;
+        random_subject(&s, kind, true);
+        const box3 bounds = shape_bounds(&s.a.p, s.a.ref);
+        const ray r = random_ray(&s);
+        struct crossing c[SHAPE_MAX_CROSSINGS];
+        const int count = shape_crossings(&s.a.p, s.a.ref, r, c);
+        for (int k = 0; k < count; k++) {
+            const struct surface at = shape_surface(&s.a.p, s.a.ref, r, c[k]);
+            if (!box_holds(grow(bounds, at.error), at.point)) fail_msg("a point outside of the bounds");
+        }
+    }
+}
+
+/* The shape's own points at height z of object space, farthest from the axis. */
+static box3 add_ring(box3 b, const struct subject *s, double z) {
+    const double radius2 = s->kind == DISC ? 1
+                           : s->kind == SPHERE
+                               ? 1 - z * z
+                               : -((forms[s->kind].zz * z + forms[s->kind].z) * z + forms[s->kind].constant);
+    if (!(radius2 >= 0)) return b;
+    for (int i = 0; i < 90; i++) {
+        const affine turn = affine_rotate((vec3){0, 0, 1}, 4 * i);
+        b = box3_add_point(b, affine_point(&s->map, affine_point(&turn, (vec3){sqrt(radius2), 0, z})));
+    }
+    return b;
+}
+
+static void check_bounds_tight(void **state) {
+    const int kind = *(int *)*state;
+    begin(kind);
+    for (int i = 0; i < 100; i++) {
+        struct subject s;
+        random_subject(&s, kind, false);
+        box3 reached = BOX3_EMPTY;
+        for (int k = 0; k <= 200; k++)
+            reached = add_ring(reached, &s, s.extent.min.z + (s.extent.max.z - s.extent.min.z) * k / 200);
+        const box3 bounds = shape_bounds(&s.a.p, s.a.ref);
+        const vec3 have = vec3_sub(bounds.max, bounds.min), need = vec3_sub(reached.max, reached.min);
+        const double slack = 1e-8 * (s.length + vec3_max_abs(bounds.max));
+        if (!(have.x <= 1.01 * need.x + slack && have.y <= 1.01 * need.y + slack &&
+              have.z <= 1.01 * need.z + slack))
+            fail_msg("bounds %g %g %g, needed %g %g %g", have.x, have.y, have.z, need.x, need.y, need.z);
+    }
+}
+
+/* ---- the list */
+
+static int kinds[SUBJECT_COUNT];
+static struct CMUnitTest tests[12 * SUBJECT_COUNT];
+static char names[12 * SUBJECT_COUNT][64];
+static size_t test_count;
+
+static void add_test(const char *what, CMUnitTestFunction check, int kind) {
+    snprintf(names[test_count], sizeof names[0], "%s: %s", what, kind < 0 ? "all" : subject_name(kind));
+    tests[test_count] =
+        (struct CMUnitTest){names[test_count], check, NULL, NULL, kind < 0 ? NULL : &kinds[kind]};
+    test_count++;
+}
+
+int main(void) {
+    const char *given = getenv("SHAPE_SEED");
+    if (given) seed = strtoull(given, NULL, 10);
+    print_message("SHAPE_SEED=%llu\n", (unsigned long long)seed);
+    for (int kind = 0; kind < SUBJECT_COUNT; kind++) {
+        const bool convex = kind < CONVEX_FORMS || kind >= SPHERE;
+        const bool rimmed = kind == CYLINDER || kind == CONE || kind == FRUSTUM || kind == HYPERBOLOID;
+        const bool round =
+            kind < FORM_COUNT ? kind != CUBE && kind != TILTED && kind != SADDLE : kind != SQUARE;
+        kinds[kind] = kind;
+        add_test("points, normals and errors", check_surfaces, kind);
+        if (convex) add_test("rays that leave", check_offsets, kind);
+        if (kind < FORM_COUNT) add_test("crossings against a walk", check_walks, kind);
+        add_test("lists of crossings", check_lists, kind);
+        if (rimmed) add_test("no leak at the rim", check_rims, kind);
+        add_test("bounds hold", check_bounds_hold, kind);
+        if (round) add_test("bounds are tight", check_bounds_tight, kind);
+    }
+    add_test("crossings against a walk, random quadrics", check_any_quadric, -1);
+    add_test("no crack between squares", check_crack, -1);
+    return _cmocka_run_group_tests("shape_random", tests, test_count, NULL, NULL);
+}
