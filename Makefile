@@ -174,7 +174,7 @@ $(BUILD)/monge: $(CLI_OBJECTS) $(BUILD)/libmonge.a
 
 $(BUILD)/libmonge.a: $(OBJECTS)
 	$(call say,ar,$@)
-	$(QUIET)rm -f $@ && ar rcs $@ $^
+	$(QUIET)rm -f $@ && ar qcs $@ $^
 
 $(BUILD)/tests/%: $(BUILD)/obj/tests/unit/%.o $(BUILD)/libmonge.a
 	@mkdir -p $(@D)

@@ -88,7 +88,7 @@ lively=(--size 4000x4000 --samples 64) # long, and its tiles are short
 printf 'scene:\n  - sphere: {}\n' >one.yaml
 cp one.yaml two.yml
 cp one.yaml 'with space.yaml'
-printf 'scene:\n  - sphere: {raduis: 2}\n' >wrong.yaml
+printf 'scene:\n  - sphere: {raduis: 2}\n  - sphere: {}\n' >wrong.yaml
 mkdir a b
 cp one.yaml a/
 cp one.yaml b/
@@ -233,7 +233,7 @@ run render --size 64x48 -q --shadow 1 floor.yaml -o x.png
 run render --size 64x48 -q --no-shadows floor.yaml -o y.png
 ok "--no-shadows is --shadow 1" cmp x.png y.png
 
-rm -f one.png two.png
+rm -f one.png two.png x.png
 exits 2 render one.yaml two.yml -o x.png; err_has '-o x.png is one file for 2 scenes'; missing x.png
 exits 2 render a/one.yaml b/one.yaml; err_has 'a/one.yaml and b/one.yaml would both write'; missing one.png
 exits 2 render one.yaml ./one.yaml; err_has 'would both write'; missing one.png
@@ -363,6 +363,10 @@ no_temporaries
 
 # ---- Progress ----
 
+exits 0 render --size 640x480 --samples 16 --threads 1 one.yaml --progress always -o p.png
+ok "a bar, which the last line replaces" grep -qE $'^\rone  \\[.*left.*\r +\rwrote p.png' err
+ok "one line in the end" [ "$(wc -l <err)" -eq 1 ]
+rm -f p.png
 if have perl; then
     signalled INT 1 render "${lively[@]}" one.yaml --progress always -o p.png
     ok "always: a bar" grep -qE 'one  \[[#-]+\] +[0-9]+%  [0-9:]+ left' err

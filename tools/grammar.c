@@ -38,8 +38,10 @@ static struct source *read_source(const char *folder, const char *file) {
 
 static const struct node *read_file(const char *folder, const char *file) {
     const struct node_limits limits = {20, 100000};
-    const struct node *root = node_parse(&arena, &diag, read_source(folder, file), &limits);
+    struct node_problem problem = {0};
+    const struct node *root = node_parse(&arena, &diag, read_source(folder, file), &limits, &problem);
     if (!root) {
+        if (problem.text) diag_error(&diag, problem.at, "%s", problem.text);
         diag_print(&diag, stderr);
         exit(2);
     }
@@ -182,13 +184,33 @@ static void write_text(FILE *out, const char *field, const char *text) {
     write_string(out, text);
 }
 
-static void write_key(FILE *out, const char *name, const struct node *key) {
-    if (key->kind != NODE_MAPPING || !text_of(key, "type")) fail(key, "a key needs a type");
+/* A slip in the definition would be a key without its default, or worse. */
+static void check_fields(const struct node *key) {
+    static const char *const known[] = {"type", "of", "default", "defaults_to", "min", "max", "above", "choices", "unit", "doc", "example",
+                                        "alternative", "required", "named", "single", "excludes", "needs", "instead", "near"};
+    if (key->kind != NODE_MAPPING || !text_of(key, "type") || !text_of(key, "doc")) fail(key, "a key needs a type and a doc");
+    for (const struct node *field = key->first; field; field = field->next->next) {
+        bool found = false;
+        for (size_t i = 0; i < sizeof known / sizeof *known; i++) found |= strcmp(field->text, known[i]) == 0;
+        if (!found) fail(field, "a key has no such field");
+    }
+}
+
+/* The words of a list must be keys of the same kind. */
+static void check_keys_exist(const struct node *keys, const struct node *words) {
+    for (const struct node *word = words ? words->first : NULL; word; word = word->next)
+        if (!get(keys, word->text)) fail(word, "no such key");
+}
+
+static void write_key(FILE *out, const struct node *keys, const char *name, const struct node *key) {
+    check_fields(key);
+    check_keys_exist(keys, get(key, "excludes"));
+    check_keys_exist(keys, get(key, "needs"));
     fprintf(out, "    {.name = \"%s\", .type = GRAMMAR_%s", name, upper(text_of(key, "type")));
     if (get(key, "of")) fprintf(out, ", .of = &grammar_kinds[KIND_%s]", upper(text_of(key, "of")));
     const char *flags[] = {"required", "alternative", "named", "single", "above"};
     for (size_t i = 0; i < sizeof flags / sizeof *flags; i++) write_flag(out, flags[i], key);
-    const char *words[] = {"choices", "instead", "excludes", "needs"};
+    const char *words[] = {"choices", "instead", "near", "excludes", "needs"};
     for (size_t i = 0; i < sizeof words / sizeof *words; i++) write_words(out, words[i], get(key, words[i]));
     write_default(out, key);
     write_limit(out, "min", key);
@@ -201,7 +223,7 @@ static void write_key(FILE *out, const char *name, const struct node *key) {
 
 static void write_keys(FILE *out, const char *name, const struct node *kind) {
     fprintf(out, "static const struct grammar_key keys_%s[] = {\n", name);
-    for (const struct node *k = get(kind, "keys")->first; k; k = k->next->next) write_key(out, k->text, k->next);
+    for (const struct node *k = get(kind, "keys")->first; k; k = k->next->next) write_key(out, get(kind, "keys"), k->text, k->next);
     fputs("};\n", out);
 }
 

@@ -8,7 +8,10 @@
 #include <string.h>
 
 enum { BINS = 16 };
-static const float TRAVERSAL_COST = 3.0f; /* of two boxes, in tests of a primitive */
+/* Of a test of two boxes and of one primitive, measured as about that, in tests of a sphere. */
+static const float BOXES_COST = 3.0f;
+static const float TEST_COST[] = {
+    [PRIMITIVE_SPHERE] = 1.0f, [PRIMITIVE_FLAT] = 1.0f, [PRIMITIVE_QUADRIC] = 3.0f};
 
 /* A box that a union of nothing leaves upside down. */
 struct bounds {
@@ -45,11 +48,14 @@ struct split {
     float cost;
 };
 
-static void bounds_add(struct bounds *a, const struct bounds *b) {
-    for (int k = 0; k < 3; k++) {
-        a->min[k] = b->min[k] < a->min[k] ? b->min[k] : a->min[k];
-        a->max[k] = b->max[k] > a->max[k] ? b->max[k] : a->max[k];
-    }
+static inline float lower(float a, float b) { return b < a ? b : a; }
+static inline float upper(float a, float b) { return b > a ? b : a; }
+
+/* Written out by axis here and below: -O2 does not unroll, and this is where the time goes. */
+static inline void bounds_add(struct bounds *a, const struct bounds *b) {
+    *a = (struct bounds){
+        {lower(a->min[0], b->min[0]), lower(a->min[1], b->min[1]), lower(a->min[2], b->min[2])},
+        {upper(a->max[0], b->max[0]), upper(a->max[1], b->max[1]), upper(a->max[2], b->max[2])}};
 }
 
 static float bounds_area(const struct bounds *a) {
@@ -234,6 +240,16 @@ static int compare_items(const void *a, const void *b) {
     return (x > y) - (x < y);
 }
 
+/* Whether splitting so few items further costs more than testing each when the node is entered. */
+static bool is_leaf(const struct item *items, uint32_t count, const struct bounds *box,
+                    const struct split *split) {
+    if (count > ACCEL_LEAF_SIZE) return false;
+    float test = 0.0f;
+    for (uint32_t i = 0; i < count; i++) test += TEST_COST[primitive_ref_kind(items[i].ref)];
+    const float area = bounds_area(box);
+    return !(BOXES_COST * area + split->cost * test / (float)count < area * test);
+}
+
 /* Makes nodes[index] of items first .. first+count-1. False: memory is out. The recursion is no
  * deeper than ACCEL_MAX_DEPTH: where `depth` leaves just the levels that halving needs, it halves. */
 static bool build_node(struct builder *b, size_t index, uint32_t first, uint32_t count, unsigned depth) {
@@ -248,9 +264,9 @@ static bool build_node(struct builder *b, size_t index, uint32_t first, uint32_t
     memcpy(node.bounds, &box, sizeof node.bounds);
 
     struct split split = {.cost = INFINITY};
-    if (count > 1 && depth + 1 + halvings(count) <= ACCEL_MAX_DEPTH) split = find_split(items, count, &centers);
-    const float area = bounds_area(&box);
-    if (count <= ACCEL_LEAF_SIZE && !(TRAVERSAL_COST * area + split.cost < (float)count * area)) {
+    if (count > 1 && depth + 1 + halvings(count) <= ACCEL_MAX_DEPTH)
+        split = find_split(items, count, &centers);
+    if (is_leaf(items, count, &box, &split)) {
         qsort(items, count, sizeof *items, compare_items);
         b->nodes[index] = node;
         return true;
@@ -298,7 +314,8 @@ static void *arena_try(struct arena *arena, size_t size) {
 }
 
 /* Copies what was built into the arena, at its exact size. NULL: the arena is full. */
-static struct accel *settle(const struct builder *b, struct arena *arena, const struct primitives *primitives) {
+static struct accel *settle(const struct builder *b, struct arena *arena,
+                            const struct primitives *primitives) {
     enum { CACHE_LINE = 64 };
     const size_t refs = (size_t)b->item_count + b->unbounded_count;
     unsigned char *memory = arena_try(arena, CACHE_LINE + b->node_count * sizeof *b->nodes +

@@ -37,9 +37,10 @@ static struct box_ray box_ray_make(ray r) {
 static inline double larger(double a, double b) { return a > b ? a : b; }
 static inline double smaller(double a, double b) { return a < b ? a : b; }
 
-/* Where the ray enters the box, not before t_min; infinite if it misses it within t_min .. t_max.
- * Written out by axis: the loop is not unrolled by -O2, and this is where the time goes. */
-static inline double box_enter(const struct bvh_node *node, const struct box_ray *b, double t_min, double t_max) {
+/* Whether the ray meets the node's box within t_min .. t_max; *enter is where, or just t_min.
+ * Written out by axis: -O2 does not unroll, and this is where the time goes. */
+static inline bool box_meet(const struct bvh_node *node, const struct box_ray *b, double t_min, double t_max,
+                            double *enter) {
     const float *plane = node->bounds;
     const double near_x = ((double)plane[b->near_plane[0]] - b->near_org[0]) * b->inverse[0];
     const double near_y = ((double)plane[b->near_plane[1]] - b->near_org[1]) * b->inverse[1];
@@ -47,65 +48,79 @@ static inline double box_enter(const struct bvh_node *node, const struct box_ray
     const double far_x = ((double)plane[b->far_plane[0]] - b->far_org[0]) * b->inverse[0];
     const double far_y = ((double)plane[b->far_plane[1]] - b->far_org[1]) * b->inverse[1];
     const double far_z = ((double)plane[b->far_plane[2]] - b->far_org[2]) * b->inverse[2];
-    const double enter = larger(larger(near_x, near_y), larger(near_z, t_min));
+    *enter = larger(larger(near_x, near_y), larger(near_z, t_min));
     const double leave = smaller(smaller(far_x, far_y), smaller(far_z, t_max));
-    return enter <= leave ? enter : INFINITY;
+    return *enter <= leave;
 }
 
 /* Tests a run of primitives; true ends an any-hit search, whose end is left out of its range. */
 static inline bool search_run(struct search *s, const primitive_ref *refs, uint32_t count, bool any) {
     for (uint32_t i = 0; i < count; i++) {
         struct crossing crossing;
-        if (!shape_first_crossing(s->primitives, refs[i], s->r, s->t_min, s->best.crossing.t, &crossing)) continue;
+        if (!shape_first_crossing(s->primitives, refs[i], s->r, s->t_min, s->best.crossing.t, &crossing))
+            continue;
         if (any) {
             if (crossing.t < s->best.crossing.t) return true;
             continue;
         }
         const uint32_t number = primitives_number(s->primitives, refs[i]);
-        if (crossing.t < s->best.crossing.t || number < s->best.number) s->best = (struct hit){number, crossing};
+        if (crossing.t < s->best.crossing.t || number < s->best.number)
+            s->best = (struct hit){number, crossing};
     }
     return false;
 }
 
-/* True when an any-hit search has found one; else s->best is the nearest. A box that begins just at
- * the best t is entered: it may hold an equal hit of a lower number. */
-static inline bool search_all(struct search *s, const struct accel *accel, bool any) {
-    struct entry {
+/* Far children to come back to, each with the t where the ray enters it. */
+struct stack {
+    struct {
         uint32_t node;
         double enter;
-    } stack[ACCEL_MAX_DEPTH];
-    int depth = 0;
+    } at[ACCEL_MAX_DEPTH];
+    int depth;
+};
 
+/* The child to go to first, the other one on the stack if it is met too; NULL where none is. A box
+ * that begins just at the best t is met: it may hold an equal hit of a lower number. */
+static inline const struct bvh_node *descend(const struct accel *accel, const struct bvh_node *node,
+                                             const struct box_ray *boxes, const struct search *s,
+                                             struct stack *stack) {
+    const bool down = boxes->near_plane[node->axis] >= 3;
+    const uint32_t near = node->first + down, far = node->first + !down;
+    double near_enter, far_enter;
+    const bool meets_near = box_meet(&accel->nodes[near], boxes, s->t_min, s->best.crossing.t, &near_enter);
+    const bool meets_far = box_meet(&accel->nodes[far], boxes, s->t_min, s->best.crossing.t, &far_enter);
+    if (!meets_near) return meets_far ? &accel->nodes[far] : NULL;
+    if (meets_far) {
+        stack->at[stack->depth].node = far;
+        stack->at[stack->depth++].enter = far_enter;
+    }
+    return &accel->nodes[near];
+}
+
+static inline const struct bvh_node *pop(const struct accel *accel, struct stack *stack, double t_best) {
+    while (stack->depth > 0)
+        if (stack->at[--stack->depth].enter <= t_best) return &accel->nodes[stack->at[stack->depth].node];
+    return NULL;
+}
+
+/* True when an any-hit search has found one; else s->best is the nearest. */
+static inline bool search_all(struct search *s, const struct accel *accel, bool any) {
     if (search_run(s, accel->unbounded, accel->unbounded_count, any)) return true;
     if (!accel->node_count) return false;
     const struct box_ray boxes = box_ray_make(s->r);
-    const struct bvh_node *node = accel->nodes;
-    if (!(box_enter(node, &boxes, s->t_min, s->best.crossing.t) < INFINITY)) return false;
-    for (;;) {
-        if (node->count) {
-            if (search_run(s, accel->refs + node->first, node->count, any)) return true;
-        } else {
-            const uint32_t child = node->first;
-            const double first = box_enter(&accel->nodes[child], &boxes, s->t_min, s->best.crossing.t);
-            const double second = box_enter(&accel->nodes[child + 1], &boxes, s->t_min, s->best.crossing.t);
-            const bool down = boxes.near_plane[node->axis] >= 3;
-            const double nearer = down ? second : first, farther = down ? first : second;
-            if (nearer < INFINITY) {
-                if (farther < INFINITY) stack[depth++] = (struct entry){child + !down, farther};
-                node = &accel->nodes[child + down];
-                continue;
-            }
-            if (farther < INFINITY) {
-                node = &accel->nodes[child + !down];
-                continue;
-            }
-        }
-        do {
-            if (!depth) return false;
-            depth--;
-        } while (!(stack[depth].enter <= s->best.crossing.t));
-        node = &accel->nodes[stack[depth].node];
+    struct stack stack;
+    stack.depth = 0;
+    double enter;
+    if (!box_meet(accel->nodes, &boxes, s->t_min, s->best.crossing.t, &enter)) return false;
+    for (const struct bvh_node *node = accel->nodes; node;) {
+        const struct bvh_node *child = NULL;
+        if (!node->count)
+            child = descend(accel, node, &boxes, s, &stack);
+        else if (search_run(s, accel->refs + node->first, node->count, any))
+            return true;
+        node = child ? child : pop(accel, &stack, s->best.crossing.t);
     }
+    return false;
 }
 
 bool accel_nearest(const struct accel *accel, ray r, double t_min, double t_max, struct hit *hit) {

@@ -49,7 +49,7 @@ bool affine_invert(affine map, affine *inverse) {
     }
     const vec3 origin = affine_column(map, 3);
     const double det = vec3_dot(axis[0], vec3_cross(axis[1], axis[2]));
-    if (!(fabs(det) > flat) || !(vec3_max_abs(origin) < most)) return false;
+    if (!(fabs(det) > flat) || !vec3_is_finite(origin) || !(vec3_max_abs(origin) < most)) return false;
 
     affine out;
     for (int i = 0; i < 3; i++) {

@@ -8,67 +8,63 @@ enum {
     EXCERPT_LEAD = 60,   /* of these, at most so many before the caret */
 };
 
-/* ---- Places ---- */
+/* ---- Safe text ---- */
 
-/* The length in bytes of the line break at text[i], as YAML counts breaks; 0 for none. */
-static size_t break_length(const struct source *source, size_t i) {
-    const unsigned char *t = (const unsigned char *)source->text;
-    const size_t left = source->size - i;
-    if (t[i] == '\n') return 1;
-    if (t[i] == '\r') return left > 1 && t[i + 1] == '\n' ? 2 : 1;
-    if (t[i] == 0xc2 && left > 1 && t[i + 1] == 0x85) return 2;
-    if (t[i] == 0xe2 && left > 2 && t[i + 1] == 0x80 && (t[i + 2] & 0xfe) == 0xa8) return 3;
-    return 0;
-}
-
-/* Where the line starts, and in *end where its break or the text ends. Past the end: both at the end. */
-static size_t find_line(const struct source *source, uint32_t line, size_t *end) {
-    size_t i = 0;
-    for (; line > 0 && i < source->size; line--) {
-        size_t skip = 0;
-        while (i < source->size && !(skip = break_length(source, i))) i++;
-        i += skip;
+/* The code point of the UTF-8 at text[0], and its length in bytes; UINT32_MAX and 1 for what is none. */
+static uint32_t decode(const char *text, size_t left, size_t *bytes) {
+    const unsigned char *t = (const unsigned char *)text;
+    const size_t n = t[0] < 0x80 ? 1 : t[0] < 0xc2 ? 0 : t[0] < 0xe0 ? 2 : t[0] < 0xf0 ? 3 : t[0] < 0xf5 ? 4 : 0;
+    static const uint32_t least[] = {0, 0, 0x80, 0x800, 0x10000};
+    *bytes = 1;
+    if (n == 0 || n > left) return UINT32_MAX;
+    uint32_t code = n == 1 ? t[0] : t[0] & (0x7fu >> n);
+    for (size_t i = 1; i < n; i++) {
+        if ((t[i] & 0xc0) != 0x80) return UINT32_MAX;
+        code = code << 6 | (t[i] & 0x3f);
     }
-    for (*end = i; *end < source->size && !break_length(source, *end);) ++*end;
-    return i;
+    if (code < least[n] || code > 0x10ffff || (code >= 0xd800 && code < 0xe000)) return UINT32_MAX;
+    *bytes = n;
+    return code;
 }
 
-static size_t character_bytes(const char *text, size_t left) {
-    size_t n = 1;
-    while (n < left && ((unsigned char)text[n] & 0xc0) == 0x80) n++;
-    return n;
+/* Whether a terminal shows the character in a column of its own: no control, no line break, nothing
+ * that turns the direction of writing. */
+static bool is_plain(uint32_t code) {
+    if (code < 0x20 || (code >= 0x7f && code < 0xa0)) return false;
+    if (code >= 0x200b && code <= 0x200f) return false;
+    if ((code >= 0x2028 && code <= 0x202e) || (code >= 0x2066 && code <= 0x2069)) return false;
+    return code != 0xfeff && code != UINT32_MAX;
 }
 
-/* Appends one character, with what could act on a terminal replaced. */
-static char *append_safe(char *to, const char *from, size_t bytes) {
-    const unsigned char first = (unsigned char)from[0];
-    const bool c1_control = bytes == 2 && first == 0xc2 && (unsigned char)from[1] < 0xa0;
-    const bool not_utf8 = first >= 0x80 && (bytes == 1 || first < 0xc2 || first > 0xf4);
-    if (first == '\t') *to++ = ' ';
-    else if (first < 0x20 || first == 0x7f || c1_control || not_utf8) *to++ = '?';
-    else {
-        memcpy(to, from, bytes);
-        to += bytes;
+/* Copies a text, each character that is not plain as `?` (a tab as a space); returns its end. A run of
+ * continuation bytes counts as part of the character before. `to` may be `from`: nothing gets longer. */
+static char *copy_safe(char *to, const char *from, size_t size) {
+    for (size_t i = 0; i < size;) {
+        size_t bytes;
+        const bool plain = is_plain(decode(from + i, size - i, &bytes));
+        if (!plain) *to++ = from[i] == '\t' ? ' ' : '?';
+        else to = (char *)memmove(to, from + i, bytes) + bytes;
+        for (i += bytes; i < size && ((unsigned char)from[i] & 0xc0) == 0x80;) i++;
     }
     return to;
 }
 
+/* ---- Places ---- */
+
 /* Fills excerpt, caret and length of the place: the part of the line about the span. */
 static void place_excerpt(struct arena *arena, struct span span, struct place *place) {
     size_t end;
-    size_t at = find_line(span.source, span.line, &end);
+    size_t at = source_line(span.source, span.line, &end);
     if (at >= end && span.column > 0) return;
     const uint32_t skip = span.column > EXCERPT_LEAD ? span.column - EXCERPT_LEAD : 0;
-    for (uint32_t i = 0; i < skip && at < end; i++) at += character_bytes(span.source->text + at, end - at);
+    for (uint32_t i = 0; i < skip && at < end; i++) at += source_character(span.source, at);
 
-    char *text = arena_alloc(arena, 4 * (size_t)EXCERPT_WIDTH + 8), *to = text;
-    if (skip) to = memcpy(to, "...", 3), to += 3;
+    const size_t begin = at;
     uint32_t shown = 0;
-    for (; at < end && shown < EXCERPT_WIDTH; shown++) {
-        const size_t bytes = character_bytes(span.source->text + at, end - at);
-        to = append_safe(to, span.source->text + at, bytes < 4 ? bytes : 4);
-        at += bytes;
-    }
+    for (; at < end && shown < EXCERPT_WIDTH; shown++) at += source_character(span.source, at);
+    char *text = arena_alloc(arena, at - begin + 7), *to = text;
+    if (skip) to = (char *)memcpy(to, "...", 3) + 3;
+    to = copy_safe(to, span.source->text + begin, at - begin);
     if (at < end) memcpy(to, "...", 3);
     place->excerpt = text;
     place->caret = span.column - skip + (skip ? 3 : 0);
@@ -79,7 +75,9 @@ static void place_excerpt(struct arena *arena, struct span span, struct place *p
 static struct place make_place(struct diagnostics *diag, struct span span) {
     if (!span.source) return (struct place){0};
     struct place place = {.line = span.line + 1, .column = span.column + 1, .length = span.length ? span.length : 1};
-    place.file = arena_text(&diag->arena, span.source->name, strlen(span.source->name));
+    char *name = arena_text(&diag->arena, span.source->name, strlen(span.source->name));
+    *copy_safe(name, name, strlen(name)) = '\0';
+    place.file = name;
     place_excerpt(&diag->arena, span, &place);
     return place;
 }
@@ -118,10 +116,11 @@ static char *format_text(struct arena *arena, const char *format, va_list args) 
     va_end(again);
     char *text = arena_alloc(arena, (size_t)length + 1);
     vsnprintf(text, (size_t)length + 1, format, args);
-    for (char *c = text; *c; c++)
-        if ((unsigned char)*c < 0x20 || *c == 0x7f) *c = '?';
+    *copy_safe(text, text, (size_t)length) = '\0';
     return text;
 }
+
+bool diag_full(const struct diagnostics *diag) { return diag->kept >= DIAG_MAX_KEPT; }
 
 static void count(struct diagnostics *diag, enum severity severity) {
     switch (severity) {
@@ -134,7 +133,7 @@ static void count(struct diagnostics *diag, enum severity severity) {
 /* Past the kept ones nothing is copied: a file of a million mistakes is no burden. */
 static struct diagnostic *add(struct diagnostics *diag, enum severity severity, struct span span,
                               const char *format, va_list args) {
-    if (diag->kept >= DIAG_MAX_KEPT && severity != SEVERITY_FAILURE) {
+    if (diag_full(diag) && severity != SEVERITY_FAILURE) {
         count(diag, severity);
         return &diag->beyond;
     }

@@ -8,26 +8,10 @@
 #ifndef MONGE_BASE_DIAG_H
 #define MONGE_BASE_DIAG_H
 
-#include <stdbool.h>
-#include <stdint.h>
 #include <stdio.h>
 
 #include "base/arena.h"
-
-/* One text that was read: a file, or standard input. Outlives the spans that point into it. */
-struct source {
-    const char *name; /* as the user gave it */
-    const char *text; /* UTF-8, no byte order mark; not zero-terminated */
-    size_t size;      /* bytes */
-};
-
-/* A stretch of characters on one line of a source. */
-struct span {
-    const struct source *source; /* NULL: nowhere in particular */
-    uint32_t line;               /* from 0 */
-    uint32_t column;             /* characters, from 0 */
-    uint32_t length;             /* characters; 0 draws one caret */
-};
+#include "base/source.h"
 
 enum severity {
     SEVERITY_ERROR,   /* the scene is wrong */
@@ -73,7 +57,8 @@ struct diagnostics {
 };
 
 /* Each returns the diagnostic, to add help, a note or related places to; never NULL. The same
- * message at the same place is kept and counted once. */
+ * message at the same place is kept and counted once, as long as there is room to keep it. What
+ * they are told of a file may be in any bytes: it comes out as UTF-8 that a terminal can take. */
 struct diagnostic *diag_error(struct diagnostics *diag, struct span span, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 struct diagnostic *diag_warning(struct diagnostics *diag, struct span span, const char *format, ...)
@@ -86,6 +71,9 @@ void diag_note(struct diagnostics *diag, struct diagnostic *d, const char *forma
     __attribute__((format(printf, 3, 4)));
 void diag_related(struct diagnostics *diag, struct diagnostic *d, struct span span, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
+
+/* Whether as many are kept as may be: further errors and warnings are counted, their texts unread. */
+bool diag_full(const struct diagnostics *diag);
 
 void diag_print(const struct diagnostics *diag, FILE *out);
 void diag_free(struct diagnostics *diag);

@@ -6,7 +6,8 @@
 
 double elementary_pow(double base, double exponent);
 
-/* Of an angle in degrees, any finite one; exact at the multiples of 90 (and sine at 30, cosine at 60). */
+/* Of an angle in degrees, any finite one; exact at the multiples of 90 (and sine at 30, cosine at 60).
+ * Elsewhere the quotient angle / 180 adds half an ulp: sine and cosine are within 1.5, the tangent within 3.5. */
 double elementary_sin_deg(double angle_deg);
 double elementary_cos_deg(double angle_deg);
 double elementary_tan_deg(double angle_deg);

@@ -36,8 +36,13 @@ static inline double vec3_max_abs(vec3 a) {
     return b.x > yz ? b.x : yz;
 }
 
-/* Euclidean length; does not overflow or underflow for components of any finite size. */
+/* Whether a squared length neither overflowed nor lost digits to underflow. */
+static inline bool vec3_is_plain(double length2) { return length2 > 1e-280 && length2 < 1e280; }
+
+/* Euclidean length; right for components of any finite size. */
 static inline double vec3_length(vec3 a) {
+    const double length2 = vec3_dot(a, a);
+    if (vec3_is_plain(length2)) return sqrt(length2);
     const double big = vec3_max_abs(a);
     if (!(big > 0.0)) return 0.0;
     const vec3 unit = {a.x / big, a.y / big, a.z / big};
@@ -46,6 +51,8 @@ static inline double vec3_length(vec3 a) {
 
 /* `a` at length one; the null vector stays null. */
 static inline vec3 vec3_normalize(vec3 a) {
+    const double length2 = vec3_dot(a, a);
+    if (vec3_is_plain(length2)) return vec3_scale(a, 1.0 / sqrt(length2));
     const double big = vec3_max_abs(a);
     if (!(big > 0.0)) return a;
     const vec3 unit = {a.x / big, a.y / big, a.z / big};

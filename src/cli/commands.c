@@ -61,30 +61,26 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
         {
             .name = "monge",
             .doc = "renders scenes that are data",
-            .text = {"A scene is a YAML file that describes a camera, lights, materials and transformed "
-                     "quadrics. "
-                     "Monge turns it into a PNG picture: the same bytes with any number of threads and on "
-                     "any machine."},
+            .text = {"A scene is a YAML file that describes a camera, lights, materials and "
+                     "transformed quadrics. Monge turns it into a PNG picture: the same bytes with "
+                     "any number of threads and on any machine."},
         },
     [COMMAND_RENDER] =
         {
             .name = "render",
             .operands = "SCENE...",
             .doc = "render scenes to PNG pictures",
-            .text =
-                {"Renders each scene, one after another, to NAME.png in the current folder; NAME is the "
-                 "scene's "
-                 "file name without .yaml or .yml. The options override what the scene says.",
-                 "-o FILE names the picture of a single scene. For several, -o DIR/ puts the pictures into a "
-                 "folder, which is made where it is missing, and in a pattern {name} stands for NAME. A "
-                 "picture is "
-                 "complete or absent: it is written under a temporary name and then renamed.",
-                 "The scene - is standard input; its picture goes to standard output unless -o says "
-                 "otherwise. "
-                 "-o - is standard output."},
+            .text = {"Renders each scene, one after another, to NAME.png in the current folder; NAME "
+                     "is the scene's file name without .yaml or .yml. The options override what the "
+                     "scene says.",
+                     "-o FILE names the picture of a single scene. For several, -o DIR/ puts the "
+                     "pictures into a folder, which is made where it is missing, and in a pattern "
+                     "{name} stands for NAME. A picture is complete or absent: it is written under "
+                     "a temporary name and then renamed.",
+                     "The scene - is standard input; its picture goes to standard output unless -o "
+                     "says otherwise. -o - is standard output."},
             .examples = {{"monge render king.yaml", "writes king.png"},
-                         {"monge render scenes/*.yaml -o pictures/ --size 320x240",
-                          "small pictures of many scenes"},
+                         {"monge render scenes/*.yaml -o pictures/ --size 320x240", "small pictures of many"},
                          {"monge render king.yaml -o 'draft-{name}.png' --shading diffuse --no-shadows",
                           "a quick look, in draft-king.png"},
                          {"generate | monge render - | display", "from a program to a program"}},
@@ -96,12 +92,12 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
             .name = "check",
             .operands = "SCENE...",
             .doc = "check scenes without rendering them",
-            .text = {"Reads each scene and reports everything that is wrong with it on standard error, each "
-                     "with its "
-                     "line and column; then `SCENE: ok`, or how many errors there are, on standard output.",
+            .text = {"Reads each scene and reports everything that is wrong with it on standard "
+                     "error, each with its line and column; then `SCENE: ok`, or how many errors "
+                     "there are, on standard output.",
                      "The scene - is standard input."},
             .examples = {{"monge check --quiet scenes/*.yaml",
-                          "as a step of a build: silent where all is well"}},
+                          "a step of a build: silent where all is well"}},
             .needs_operand = true,
             .run = check_command,
         },
@@ -110,9 +106,8 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
             .name = "help",
             .operands = "[COMMAND]",
             .doc = "tell how to use monge or one of its commands",
-            .text = {"Without a command: what there is. The manual page and the completion scripts come from "
-                     "the same "
-                     "table as this text."},
+            .text = {"Without a command: what there is. The manual page and the completion scripts "
+                     "come from the same table as this text."},
             .examples = {{"monge help render", "the options of render"},
                          {"source <(monge help --completion bash)", "completion in this shell"}},
             .run = help_command,

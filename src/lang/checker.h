@@ -16,13 +16,29 @@ struct definition {
     struct definition *next; /* in the order of the file */
 };
 
+/* Where an object stands: the value of `key` in a mapping of `kind`. Both NULL: the file itself. */
+struct surrounding {
+    const struct grammar_kind *kind;
+    const struct grammar_key *key;
+};
+
 struct checker {
     struct arena *arena;
     struct diagnostics *diag;
-    const struct lang_limits *limits;
-    size_t values; /* seen so far, those behind aliases each time */
-    struct table names;             /* of definitions; one table serves as long as one kind is defined */
+    struct surrounding around; /* the object that is checked now */
+    struct table names;        /* of definitions; one table serves as long as one kind is defined */
     struct definition *definitions, **definitions_end;
+    bool names_lost; /* the definitions could not be read: nothing can be said of names */
+};
+
+enum { CHECK_MAX_KEYS = 64 }; /* of a kind */
+
+/* A mapping that is checked as an object. */
+struct mapping {
+    const struct node *node;                  /* NODE_MAPPING */
+    const struct object_value *object;        /* what it becomes; its span is the alias's where there is one */
+    const struct node *given[CHECK_MAX_KEYS]; /* the first node of each key of the kind; NULL: not there */
+    bool meant[CHECK_MAX_KEYS];               /* an unknown key was probably this one */
 };
 
 /* ---- scalars.c: one value each. False when it was reported as wrong; *out is then untouched. ---- */
@@ -33,6 +49,11 @@ bool check_boolean(struct checker *ck, const struct grammar_key *key, const stru
 bool check_choice(struct checker *ck, const struct grammar_key *key, const struct node *node, int *out);
 bool check_text(struct checker *ck, const struct grammar_key *key, const struct node *node, const char **out);
 
+/* Whether the text is a number of the language: decimal, of any size. */
+bool scalar_is_number(const char *text);
+
+/* ---- rows.c ---- */
+
 /* Three numbers in range; a direction is not null. */
 bool check_vector(struct checker *ck, const struct grammar_key *key, const struct node *node, vec3 *out);
 bool check_size(struct checker *ck, const struct grammar_key *key, const struct node *node, vec3 *out);
@@ -42,12 +63,27 @@ bool check_matrix(struct checker *ck, const struct grammar_key *key, const struc
 
 bool check_color(struct checker *ck, const struct grammar_key *key, const struct node *node, vec3 *out);
 
-/* ---- check.c ---- */
+/* Whether the text is a colour: "#rrggbb", "#rgb" or a CSS name. */
+bool color_parse(const char *text, vec3 *out);
 
-/* Counts a value against the limit. False when there are too many; reported once. */
-bool check_count(struct checker *ck, const struct node *node);
+/* ---- mistakes.c: what is wrong with keys and mappings, and the smallest fix ---- */
 
-/* "a list of 3", "the text `abc`": what was found, for messages. In the arena of the diagnostics. */
-const char *check_found(struct checker *ck, const struct node *node);
+/* Whether there is room for the count of mistakes alone: then it is counted, and its text need not be made. */
+bool only_counted(struct checker *ck, struct span span);
+
+/* "a list of 3", "`abc`": what was found, for messages; "" when nobody will read it. */
+const char *found_text(struct checker *ck, const struct node *node);
+
+/* The text, or its beginning and `...`: for messages. */
+const char *short_text(struct checker *ck, const char *text);
+
+/* The index of the key that was probably meant, or -1. Marks a key under which it belongs as meant. */
+int report_unknown_key(struct checker *ck, const struct grammar_kind *kind, struct mapping *mapping, const struct node *key);
+void report_no_value(struct checker *ck, const struct grammar_key *key, const struct node *name);
+void report_no_mapping(struct checker *ck, const struct grammar_kind *kind, const struct node *node);
+void report_no_list(struct checker *ck, const struct grammar_key *key, const struct node *node);
+void report_no_map(struct checker *ck, const struct grammar_key *key, const struct node *node);
+void report_no_name(struct checker *ck, const struct grammar_key *key, const struct node *node);
+void report_no_alternative(struct checker *ck, const struct object_value *object);
 
 #endif

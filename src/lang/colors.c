@@ -1,4 +1,5 @@
 #include <ctype.h>
+#include <stdio.h>
 #include <string.h>
 #include <strings.h>
 
@@ -35,28 +36,61 @@ static bool parse_hex(const char *text, unsigned char rgb[3]) {
     return true;
 }
 
-static bool check_color_text(struct checker *ck, const struct grammar_key *key, const struct node *node, vec3 *out) {
-    const char *text = node_resolve(node)->text;
+bool color_parse(const char *text, vec3 *out) {
     unsigned char rgb[3];
     if (text[0] == '#') {
-        if (parse_hex(text, rgb)) {
-            *out = linear_from_bytes(rgb);
-            return true;
-        }
-        diag_error(ck->diag, node->span, "`%s`: a colour in hexadecimal has 3 or 6 digits 0-9 a-f, found `%s`", key->name, text);
-        return false;
+        if (!parse_hex(text, rgb)) return false;
+        *out = linear_from_bytes(rgb);
+        return true;
     }
     for (int i = 0; i < grammar_color_count; i++)
         if (strcasecmp(text, grammar_colors[i].name) == 0) {
             *out = linear_from_bytes(grammar_colors[i].rgb);
             return true;
         }
+    return false;
+}
+
+/* `rgb(255, 215, 0)`, of CSS. */
+static bool help_rgb(struct checker *ck, struct diagnostic *d, const char *text) {
+    unsigned r, g, b;
+    int end = 0;
+    if (sscanf(text, "rgb(%3u ,%3u ,%3u )%n", &r, &g, &b, &end) != 3 || end == 0 || text[end] || r > 255 || g > 255 || b > 255) return false;
+    diag_help(ck->diag, d, "write \"#%02x%02x%02x\"", r, g, b);
+    return true;
+}
+
+static void report_no_color(struct checker *ck, const struct grammar_key *key, const struct node *node) {
+    if (only_counted(ck, node->span)) return;
+    struct diagnostic *d = diag_error(ck->diag, node->span, "`%s`: expected %s, found %s", key->name,
+                                      key->type == GRAMMAR_AMOUNT ? "a number or a colour" : "a colour", found_text(ck, node));
+    const struct node *n = node_resolve(node);
+    const char *text = n->kind == NODE_SCALAR && n->count <= 40 ? n->text : "", *hash = arena_format(ck->arena, "#%s", text);
+    unsigned char rgb[3];
+    if (scalar_is_number(text)) diag_help(ck->diag, d, "for a grey write [%s, %s, %s]", text, text, text);
+    else if (*text != '#' && parse_hex(hash, rgb)) diag_help(ck->diag, d, "did you mean \"%s\"?", hash);
+    else if (help_rgb(ck, d, text)) return;
+    else if (n->kind == NODE_MAPPING) diag_help(ck->diag, d, "a colour is [r, g, b], \"#rrggbb\" or a CSS name; textures are not there yet");
+    else diag_help(ck->diag, d, "a colour is [r, g, b], \"#rrggbb\" or a CSS name");
+}
+
+static void report_no_color_name(struct checker *ck, const struct grammar_key *key, const struct node *node) {
+    if (only_counted(ck, node->span)) return;
+    const char *text = node_resolve(node)->text;
     struct spelling s = spelling_begin(text);
     for (int i = 0; i < grammar_color_count; i++) spelling_offer(&s, grammar_colors[i].name);
-    struct diagnostic *d = diag_error(ck->diag, node->span, "`%s`: no colour is named `%s`", key->name, text);
-    if (s.best) diag_help(ck->diag, d, "did you mean `%s`?", s.best);
-    else diag_help(ck->diag, d, "a colour is [r, g, b], \"#rrggbb\" or a CSS name");
-    return false;
+    if (text[0] == '#') {
+        struct diagnostic *d = diag_error(ck->diag, node->span, "`%s`: a colour in hexadecimal has 3 or 6 digits 0-9 a-f, found %s",
+                                          key->name, found_text(ck, node));
+        unsigned char rgb[3];
+        const char *start = arena_text(ck->arena, text, strlen(text) > 7 ? 7 : 0);
+        if (strlen(text) == 9 && parse_hex(start, rgb)) diag_help(ck->diag, d, "without the last two, which say how opaque it is: \"%s\"", start);
+    } else if (s.best) {
+        struct diagnostic *d = diag_error(ck->diag, node->span, "`%s`: no colour is named %s", key->name, found_text(ck, node));
+        diag_help(ck->diag, d, "did you mean `%s`?", s.best);
+    } else {
+        report_no_color(ck, key, node);
+    }
 }
 
 /* Bytes are what people paste: [255, 128, 0]. */
@@ -79,7 +113,7 @@ static bool check_color_range(struct checker *ck, const struct grammar_key *key,
         return false;
     }
     if (over && key->type == GRAMMAR_AMOUNT) {
-        diag_error(ck->diag, node->span, "`%s`: must be 0 to 1", key->name);
+        diag_error(ck->diag, node->span, "`%s`: each part must be 0 to 1", key->name);
         return false;
     }
     if (over) diag_warning(ck->diag, node->span, "`%s`: gives back more light than it gets: a part is over 1", key->name);
@@ -93,8 +127,7 @@ static bool check_color_list(struct checker *ck, const struct grammar_key *key, 
     component.has_min = component.has_max = false;
     double v[3];
     if (n->count != 3) {
-        diag_error(ck->diag, node->span, "`%s`: expected [r, g, b], found %u number%s", key->name, (unsigned)n->count,
-                   n->count == 1 ? "" : "s");
+        diag_error(ck->diag, node->span, "`%s`: expected [r, g, b], found %s", key->name, found_text(ck, node));
         return false;
     }
     bool ok = true;
@@ -109,21 +142,20 @@ static bool starts_like_number(const char *text) {
     return isdigit((unsigned char)text[strspn(text, "+-.")]);
 }
 
+static bool check_grey(struct checker *ck, const struct grammar_key *key, const struct node *node, vec3 *out) {
+    double all;
+    if (!check_number(ck, key, node, &all)) return false;
+    *out = vec3_all(all);
+    return true;
+}
+
 bool check_color(struct checker *ck, const struct grammar_key *key, const struct node *node, vec3 *out) {
     const struct node *n = node_resolve(node);
-    if (!check_count(ck, node)) return false;
     if (n->kind == NODE_SEQUENCE) return check_color_list(ck, key, node, out);
+    if (n->kind == NODE_SCALAR && color_parse(n->text, out)) return true;
     const bool number = n->kind == NODE_SCALAR && starts_like_number(n->text);
-    if (number && key->type == GRAMMAR_AMOUNT) {
-        double all;
-        if (!check_number(ck, key, node, &all)) return false;
-        *out = vec3_all(all);
-        return true;
-    }
-    if (n->kind == NODE_SCALAR && n->count > 0 && !number) return check_color_text(ck, key, node, out);
-    struct diagnostic *d = diag_error(ck->diag, node->span, "`%s`: expected %s, found %s", key->name,
-                                      key->type == GRAMMAR_AMOUNT ? "a number or a colour" : "a colour", check_found(ck, node));
-    if (number && strlen(n->text) < 20) diag_help(ck->diag, d, "for a grey write [%s, %s, %s]", n->text, n->text, n->text);
-    else diag_help(ck->diag, d, "a colour is [r, g, b], \"#rrggbb\" or a CSS name");
+    if (number && key->type == GRAMMAR_AMOUNT) return check_grey(ck, key, node, out);
+    if (n->kind == NODE_SCALAR && n->count > 0 && !number) report_no_color_name(ck, key, node);
+    else report_no_color(ck, key, node);
     return false;
 }

@@ -39,7 +39,7 @@ struct object_value {
     struct span span;
     const char *name;      /* of an entry of a map, else NULL */
     uint32_t definition;   /* of an entry of a map: its position there, from 0 */
-    bool failed;           /* some key of it was reported as wrong; its field is NULL */
+    bool failed;           /* some key of it was reported as wrong; its field is NULL. Of the file: anything in it */
     struct value **fields; /* kind->key_count; NULL where not given */
 };
 

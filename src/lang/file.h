@@ -4,8 +4,8 @@
 
 #include "base/diag.h"
 
-/* Reads the whole of `path` ("-": standard input) into the arena, as UTF-8 without a byte order
- * mark. NULL when it cannot be read (a failure in diag), or is longer than `limit` bytes (an error). */
+/* Reads the whole of `path` ("-": standard input) into the arena, without a byte order mark. NULL
+ * when it cannot be read or is longer than `limit` bytes: a failure in diag. */
 const struct source *file_read(struct arena *arena, struct diagnostics *diag, const char *path, size_t limit);
 
 /* The same of a text in memory, which must outlive the source. */

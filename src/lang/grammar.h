@@ -32,6 +32,7 @@ struct grammar_key {
     const struct grammar_kind *of; /* OBJECT, LIST, MAP; of a COLOR: the mapping that may stand instead; else NULL */
     const char *const *choices;    /* CHOICE: ends with NULL */
     const char *const *instead;    /* words of other renderers for this key; ends with NULL */
+    const char *const *near;       /* words of other renderers for what is not quite this; ends with NULL */
     const char *const *excludes;   /* keys that contradict this one; ends with NULL */
     const char *const *needs;      /* keys that must stand beside this one; ends with NULL */
     bool required;

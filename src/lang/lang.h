@@ -6,7 +6,7 @@
 
 struct lang_limits {
     unsigned nesting; /* collections within each other */
-    size_t values;    /* in the file, and again when its aliases are expanded */
+    size_t values;    /* in the file, those behind aliases each time */
 };
 
 /* Reads the scene in `source`, all its mistakes reported to `diag`. NULL when nothing can be said

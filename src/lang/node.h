@@ -13,9 +13,10 @@
 enum node_kind { NODE_SCALAR, NODE_SEQUENCE, NODE_MAPPING, NODE_ALIAS };
 
 struct node {
-    struct span span; /* a scalar's text; a collection's first line */
+    struct span span; /* a scalar's text; a collection's first character */
     enum node_kind kind;
     bool quoted;               /* a scalar in quotes or a block scalar */
+    bool merged;               /* a key that a merge key brought here */
     uint32_t count;            /* scalar: bytes of text; sequence: items; mapping: pairs */
     union {
         const char *text;      /* scalar: zero-terminated */
@@ -35,12 +36,19 @@ bool node_is_null(const struct node *node);
 
 struct node_limits {
     unsigned nesting; /* collections within each other */
-    size_t nodes;     /* in one file */
+    size_t nodes;     /* in one file, those behind aliases each time */
 };
 
-/* Parses the only document of `source`. NULL when it is not YAML, breaks a limit, or is empty:
- * reported to `diag`. */
+/* What libyaml says of a text that is not YAML. */
+struct node_problem {
+    const char *text, *context; /* its words, static; text NULL: there is none */
+    struct span at, context_at; /* where it stopped; where what it was reading begins */
+    struct span quoted_at, quoted_end; /* of the last text in quotes before; source NULL: none */
+};
+
+/* Parses the only document of `source`. NULL when it is empty or breaks a limit, which is reported to
+ * `diag`, or not YAML, which is left to *problem (zeroed before by the caller) and not reported. */
 struct node *node_parse(struct arena *arena, struct diagnostics *diag, const struct source *source,
-                        const struct node_limits *limits);
+                        const struct node_limits *limits, struct node_problem *problem);
 
 #endif

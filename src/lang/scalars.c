@@ -9,7 +9,7 @@
 
 /* number = [+-] digits [. digits] [e [+-] digits], with digits on one side of the point at least.
  * What strtod accepts besides (hexadecimal, inf, nan, spaces) is no number of the language. */
-static bool is_number(const char *text) {
+bool scalar_is_number(const char *text) {
     const char *c = text + (*text == '-' || *text == '+');
     const bool whole = isdigit((unsigned char)*c);
     while (isdigit((unsigned char)*c)) c++;
@@ -25,12 +25,6 @@ static bool is_number(const char *text) {
     return *c == '\0';
 }
 
-/* `010` is octal to some readers of YAML and ten to others. */
-static bool has_leading_zero(const char *text) {
-    const char *c = text + (*text == '-' || *text == '+');
-    return c[0] == '0' && isdigit((unsigned char)c[1]);
-}
-
 static const struct {
     const char *bytes, *name, *plain;
 } lookalikes[] = {
@@ -39,13 +33,18 @@ static const struct {
     {"\xef\xbc\x8d", "a full-width minus (U+FF0D)", "-"},  {",", "a comma", "."},
     {"O", "the letter O", "0"},                            {"o", "the letter o", "0"},
     {"l", "the letter l", "1"},                            {"_", "an underscore", ""},
-    {"f", "an f", ""},                                     {"deg", "a unit", ""},
-    {"\xc2\xb0", "a degree sign", ""},                     {"px", "a unit", ""},
+    {"f", "an f", ""},                                     {"\xc2\xb0", "a degree sign", ""},
     {" ", "a space", ""},
 };
 
+/* `010` is octal to some readers of YAML and ten to others. */
+static bool has_leading_zero(const char *text) {
+    const char *c = text + (*text == '-' || *text == '+');
+    return c[0] == '0' && isdigit((unsigned char)c[1]);
+}
+
 /* The text with every occurrence of one lookalike replaced, if that makes it a number. */
-static const char *mend_number(struct checker *ck, const char *text, const char **what) {
+static const char *mend_lookalike(struct checker *ck, const char *text, const char **what) {
     for (size_t i = 0; i < sizeof lookalikes / sizeof *lookalikes; i++) {
         const char *from = lookalikes[i].bytes, *hit = strstr(text, from), *rest = text;
         if (!hit) continue;
@@ -54,44 +53,77 @@ static const char *mend_number(struct checker *ck, const char *text, const char 
             mended = arena_format(ck->arena, "%s%.*s%s", mended, (int)(hit - rest), rest, lookalikes[i].plain);
         mended = arena_format(ck->arena, "%s%s", mended, rest);
         *what = lookalikes[i].name;
-        if (is_number(mended)) return mended;
+        if (scalar_is_number(mended) && !has_leading_zero(mended)) return mended;
     }
     return NULL;
+}
+
+/* 0x1F, 0o17, 0b11. */
+static bool help_base(struct checker *ck, struct diagnostic *d, const char *text) {
+    const int base = text[0] != '0' ? 0 : text[1] == 'x' || text[1] == 'X' ? 16 : text[1] == 'o' ? 8 : text[1] == 'b' ? 2 : 0;
+    char *end;
+    const unsigned long value = base ? strtoul(text + 2, &end, base) : 0;
+    if (!base || *end || end == text + 2) return false;
+    diag_help(ck->diag, d, "numbers are decimal: write %lu", value);
+    return true;
+}
+
+/* 45deg, 10px, 5%. */
+static bool help_unit(struct checker *ck, struct diagnostic *d, const char *text) {
+    const size_t digits = strspn(text, "+-.0123456789");
+    const char *number = arena_text(ck->arena, text, digits), *unit = text + digits;
+    if (*unit == ' ') unit++;
+    if (!scalar_is_number(number) || !*unit) return false;
+    if (strcmp(unit, "%") == 0) {
+        diag_help(ck->diag, d, "did you mean %g?", strtod(number, NULL) / 100.0);
+        return true;
+    }
+    for (const char *c = unit; *c; c++)
+        if (!isalpha((unsigned char)*c)) return false;
+    diag_help(ck->diag, d, "numbers have no unit here: did you mean %s?", number);
+    return true;
 }
 
 static const char *wanted_number(const struct grammar_key *key) {
     return key->type == GRAMMAR_INTEGER || key->type == GRAMMAR_SIZE ? "a whole number" : "a number";
 }
 
+static void help_scalar(struct checker *ck, struct diagnostic *d, const char *text) {
+    const char *what = NULL, *mended = mend_lookalike(ck, text, &what);
+    if (mended) diag_help(ck->diag, d, "it has %s in it: did you mean %s?", what, mended);
+    else if (help_base(ck, d, text) || help_unit(ck, d, text)) return;
+    else if (strpbrk(text, "*/()<>?^") || strstr(text, " + ") || strstr(text, " - "))
+        diag_help(ck->diag, d, "expressions are not there yet: write the number itself");
+    else if (spelling_distance(text, ".inf") <= 1 || spelling_distance(text, ".nan") <= 1 || spelling_distance(text, "-.inf") <= 1)
+        diag_help(ck->diag, d, "a number is finite");
+}
+
 static void report_no_number(struct checker *ck, const struct grammar_key *key, const struct node *node) {
-    struct diagnostic *d = diag_error(ck->diag, node->span, "`%s`: expected %s, found %s", key->name,
-                                      wanted_number(key), check_found(ck, node));
+    if (only_counted(ck, node->span)) return;
     const struct node *n = node_resolve(node);
+    struct diagnostic *d = diag_error(ck->diag, node->span, "`%s`: expected %s, found %s", key->name,
+                                      wanted_number(key), found_text(ck, node));
     if (n->kind == NODE_SEQUENCE && n->count == 3)
         diag_note(ck->diag, d, "one number serves all three axes here; stretch the object by `scale` in its `transform`");
-    if (n->kind != NODE_SCALAR || n->count > 100) return;
-    const char *what = NULL, *mended = mend_number(ck, n->text, &what);
-    if (mended) diag_help(ck->diag, d, "it has %s in it: did you mean %s?", what, mended);
-    else if (strspn(n->text, "+-*/() .0123456789") < n->count) return;
-    else diag_help(ck->diag, d, "expressions are not there yet: write the number itself");
+    if (n->kind == NODE_SEQUENCE && n->count == 1) diag_help(ck->diag, d, "remove the brackets");
+    if (n->kind == NODE_SCALAR && n->count <= 100) help_scalar(ck, d, n->text);
 }
 
 /* Any finite number. */
 static bool parse_number(struct checker *ck, const struct grammar_key *key, const struct node *node, double *out) {
     const struct node *n = node_resolve(node);
-    if (!check_count(ck, node)) return false;
-    if (n->kind != NODE_SCALAR || !is_number(n->text)) {
+    if (n->kind != NODE_SCALAR || !scalar_is_number(n->text)) {
         report_no_number(ck, key, node);
         return false;
     }
     const double value = strtod(n->text, NULL);
     if (has_leading_zero(n->text)) {
-        struct diagnostic *d = diag_error(ck->diag, node->span, "`%s`: a number with a leading zero, `%s`", key->name, n->text);
-        diag_help(ck->diag, d, "write %.17g", value);
+        struct diagnostic *d = diag_error(ck->diag, node->span, "`%s`: a number with a leading zero, found %s", key->name, found_text(ck, node));
+        diag_help(ck->diag, d, "write %.17g; some readers of YAML take a leading zero for base 8", value);
         return false;
     }
     if (!isfinite(value)) {
-        diag_error(ck->diag, node->span, "`%s`: %s is too large: a double ends at 1.8e308", key->name, n->text);
+        diag_error(ck->diag, node->span, "`%s`: too large, numbers end at 1.8e308, found %s", key->name, found_text(ck, node));
         return false;
     }
     *out = value;
@@ -100,17 +132,20 @@ static bool parse_number(struct checker *ck, const struct grammar_key *key, cons
 
 static const char *range_text(struct checker *ck, const struct grammar_key *key) {
     const char *unit = key->unit ? arena_format(ck->arena, " %s", key->unit) : "";
-    if (key->has_max && key->above) return arena_format(ck->arena, "over %g, up to %g%s", key->min, key->max, unit);
-    if (key->has_max) return arena_format(ck->arena, "%g to %g%s", key->min, key->max, unit);
-    return arena_format(ck->arena, key->above ? "over %g" : "%g or more", key->min);
+    if (key->has_max && key->max == key->min) return arena_format(ck->arena, "%.15g%s", key->min, unit);
+    if (key->has_max && key->above) return arena_format(ck->arena, "over %.15g, up to %.15g%s", key->min, key->max, unit);
+    if (key->has_max) return arena_format(ck->arena, "%.15g to %.15g%s", key->min, key->max, unit);
+    return arena_format(ck->arena, key->above ? "over %.15g" : "%.15g or more", key->min);
 }
 
 static bool in_range(struct checker *ck, const struct grammar_key *key, const struct node *node, double value) {
     const bool low = key->has_min && !(key->above ? value > key->min : value >= key->min);
     const bool high = key->has_max && !(value <= key->max);
     if (!low && !high) return true;
-    diag_error(ck->diag, node->span, "`%s`: must be %s, found %s", key->name, range_text(ck, key),
-               node_resolve(node)->text);
+    if (only_counted(ck, node->span)) return false;
+    struct diagnostic *d = diag_error(ck->diag, node->span, "`%s`: must be %s, found %s", key->name, range_text(ck, key), found_text(ck, node));
+    if (high && key->type == GRAMMAR_SIZE)
+        diag_help(ck->diag, d, "a square of that side would take %.3g GiB of memory", 12.0 * value * value / (1 << 30));
     return false;
 }
 
@@ -125,7 +160,7 @@ bool check_integer(struct checker *ck, const struct grammar_key *key, const stru
     double value;
     if (!parse_number(ck, key, node, &value)) return false;
     if (value != floor(value)) {
-        diag_error(ck->diag, node->span, "`%s`: expected a whole number, found %s", key->name, node_resolve(node)->text);
+        diag_error(ck->diag, node->span, "`%s`: expected a whole number, found %s", key->name, found_text(ck, node));
         return false;
     }
     if (!in_range(ck, key, node, value)) return false;
@@ -137,12 +172,11 @@ bool check_integer(struct checker *ck, const struct grammar_key *key, const stru
 
 bool check_boolean(struct checker *ck, const struct grammar_key *key, const struct node *node, int *out) {
     const struct node *n = node_resolve(node);
-    if (!check_count(ck, node)) return false;
     if (n->kind == NODE_SCALAR && (strcmp(n->text, "true") == 0 || strcmp(n->text, "false") == 0)) {
         *out = n->text[0] == 't';
         return true;
     }
-    struct diagnostic *d = diag_error(ck->diag, node->span, "`%s`: expected true or false, found %s", key->name, check_found(ck, node));
+    struct diagnostic *d = diag_error(ck->diag, node->span, "`%s`: expected true or false, found %s", key->name, found_text(ck, node));
     static const char *const words[][2] = {{"yes", "true"}, {"on", "true"},   {"y", "true"},    {"1", "true"},
                                            {"no", "false"}, {"off", "false"}, {"n", "false"},   {"0", "false"},
                                            {"true", "true"}, {"false", "false"}};
@@ -151,106 +185,39 @@ bool check_boolean(struct checker *ck, const struct grammar_key *key, const stru
     return false;
 }
 
-bool check_choice(struct checker *ck, const struct grammar_key *key, const struct node *node, int *out) {
+static int find_choice(const struct grammar_key *key, const char *word) {
+    for (int i = 0; key->choices[i]; i++)
+        if (strcmp(word, key->choices[i]) == 0) return i;
+    return -1;
+}
+
+static void report_no_choice(struct checker *ck, const struct grammar_key *key, const struct node *node) {
+    if (only_counted(ck, node->span)) return;
     const struct node *n = node_resolve(node);
-    if (!check_count(ck, node)) return false;
     struct spelling s = spelling_begin(n->kind == NODE_SCALAR ? n->text : "");
     const char *all = "";
     for (int i = 0; key->choices[i]; i++) {
-        if (n->kind == NODE_SCALAR && strcmp(n->text, key->choices[i]) == 0) {
-            *out = i;
-            return true;
-        }
         spelling_offer(&s, key->choices[i]);
         all = arena_format(ck->arena, "%s%s%s", all, i == 0 ? "" : key->choices[i + 1] ? ", " : " or ", key->choices[i]);
     }
-    struct diagnostic *d = diag_error(ck->diag, node->span, "`%s`: expected %s, found %s", key->name, all, check_found(ck, node));
+    struct diagnostic *d = diag_error(ck->diag, node->span, "`%s`: expected %s, found %s", key->name, all, found_text(ck, node));
     if (s.best) diag_help(ck->diag, d, "did you mean `%s`?", s.best);
-    return false;
+}
+
+bool check_choice(struct checker *ck, const struct grammar_key *key, const struct node *node, int *out) {
+    const struct node *n = node_resolve(node);
+    const int index = n->kind == NODE_SCALAR ? find_choice(key, n->text) : -1;
+    if (index >= 0) *out = index;
+    else report_no_choice(ck, key, node);
+    return index >= 0;
 }
 
 bool check_text(struct checker *ck, const struct grammar_key *key, const struct node *node, const char **out) {
     const struct node *n = node_resolve(node);
-    if (!check_count(ck, node)) return false;
     if (n->kind != NODE_SCALAR || n->count == 0) {
-        diag_error(ck->diag, node->span, "`%s`: expected a text, found %s", key->name, check_found(ck, node));
+        diag_error(ck->diag, node->span, "`%s`: expected a text, found %s", key->name, found_text(ck, node));
         return false;
     }
     *out = n->text;
-    return true;
-}
-
-/* ---- Rows of numbers ---- */
-
-/* Exactly `count` numbers of a list, checked one by one with `check`. */
-static bool check_row(struct checker *ck, const struct grammar_key *key, const struct node *node, const char *form, int count,
-                      bool check(struct checker *, const struct grammar_key *, const struct node *, double *), double *out) {
-    const struct node *n = node_resolve(node);
-    if (!check_count(ck, node)) return false;
-    if (n->kind != NODE_SEQUENCE) {
-        diag_error(ck->diag, node->span, "`%s`: expected %s, found %s", key->name, form, check_found(ck, node));
-        return false;
-    }
-    if ((int)n->count != count) {
-        struct diagnostic *d = diag_error(ck->diag, node->span, "`%s`: expected %s, found %u number%s", key->name, form,
-                                          (unsigned)n->count, n->count == 1 ? "" : "s");
-        if (count == 3 && n->count == 2) diag_help(ck->diag, d, "the third number, z, is missing");
-        if (count == 3 && n->count == 1) diag_help(ck->diag, d, "the second and third numbers, y and z, are missing");
-        return false;
-    }
-    bool ok = true;
-    int i = 0;
-    for (const struct node *item = n->first; item; item = item->next, i++) ok &= check(ck, key, item, &out[i]);
-    return ok;
-}
-
-bool check_vector(struct checker *ck, const struct grammar_key *key, const struct node *node, vec3 *out) {
-    double v[3];
-    const struct node *n = node_resolve(node);
-    if (key->type == GRAMMAR_FACTORS && n->kind == NODE_SCALAR) {
-        if (!check_number(ck, key, node, &v[0])) return false;
-        *out = vec3_all(v[0]);
-        return true;
-    }
-    const char *form = key->type == GRAMMAR_FACTORS ? "a number or [x, y, z]" : "[x, y, z]";
-    if (!check_row(ck, key, node, form, 3, check_number, v)) return false;
-    if (key->type == GRAMMAR_DIRECTION && v[0] == 0.0 && v[1] == 0.0 && v[2] == 0.0) {
-        diag_help(ck->diag, diag_error(ck->diag, node->span, "`%s`: [0, 0, 0] is no direction", key->name),
-                  "any other vector will do, of any length");
-        return false;
-    }
-    *out = (vec3){v[0], v[1], v[2]};
-    return true;
-}
-
-bool check_size(struct checker *ck, const struct grammar_key *key, const struct node *node, vec3 *out) {
-    double v[2];
-    if (!check_row(ck, key, node, "[width, height]", 2, check_integer, v)) return false;
-    *out = (vec3){v[0], v[1], 0};
-    return true;
-}
-
-bool check_matrix(struct checker *ck, const struct grammar_key *key, const struct node *node, const affine **out) {
-    const struct node *n = node_resolve(node);
-    double rows[4][4] = {{0}, {0}, {0}, {0, 0, 0, 1}};
-    if (!check_count(ck, node)) return false;
-    if (n->kind != NODE_SEQUENCE || (n->count != 3 && n->count != 4)) {
-        struct diagnostic *d = diag_error(ck->diag, node->span, "`%s`: expected three rows of four numbers, found %s",
-                                          key->name, check_found(ck, node));
-        diag_help(ck->diag, d, "as in [[1, 0, 0, 5], [0, 1, 0, 0], [0, 0, 1, 0]]");
-        return false;
-    }
-    bool ok = true;
-    int i = 0;
-    for (const struct node *row = n->first; row; row = row->next)
-        ok &= check_row(ck, key, row, "four numbers in a row", 4, check_number, rows[i++]);
-    if (!ok) return false;
-    if (rows[3][0] != 0 || rows[3][1] != 0 || rows[3][2] != 0 || rows[3][3] != 1) {
-        diag_error(ck->diag, node->span, "`%s`: the fourth row of an affine map is [0, 0, 0, 1]", key->name);
-        return false;
-    }
-    affine *map = arena_alloc(ck->arena, sizeof *map);
-    memcpy(map->m, rows, sizeof map->m);
-    *out = map;
     return true;
 }

@@ -17,7 +17,8 @@ struct spelling {
 
 struct spelling spelling_begin(const char *word);
 
-/* Takes the candidate if it is nearer than the best and near at all: a third of its letters at most. */
+/* Takes the candidate if it is nearer than the best and near at all: a third of the letters of the
+ * longer word at most, or the word (of three letters or more) is how it begins. */
 void spelling_offer(struct spelling *s, const char *candidate);
 
 #endif

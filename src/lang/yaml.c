@@ -9,7 +9,10 @@
 struct anchor {
     const char *name;
     struct node *node;
-    bool open; /* its collection has not ended: an alias now would be a cycle */
+    bool open;       /* its collection has not ended: an alias now would be a cycle */
+    double values;   /* of the node, those behind aliases each time */
+    unsigned height; /* collections within each other, the node's own included */
+    const struct anchor *largest; /* of those that it refers to; NULL: none */
 };
 
 struct reader {
@@ -19,15 +22,22 @@ struct reader {
     struct diagnostics *diag;
     const struct source *source;
     const struct node_limits *limits;
+    struct node_problem *problem;
     struct table anchors; /* the newest of each name */
-    size_t nodes;
-    unsigned nesting;
+    size_t nodes;                 /* in the text */
+    size_t merged;                /* pairs that merge keys have looked at */
+    double values;                /* nodes, those behind aliases each time */
+    struct node *beyond;          /* the alias with which `values` passes the limit; NULL: not yet */
+    unsigned nesting;             /* collections that are open */
+    unsigned height;              /* of the node that was read last, as in struct anchor */
+    const struct anchor *largest; /* alias in the innermost anchored node */
 };
 
 bool node_is_null(const struct node *node) {
     const struct node *n = node_resolve(node);
     return n->kind == NODE_SCALAR && !n->quoted &&
-           (n->count == 0 || strcmp(n->text, "~") == 0 || strcmp(n->text, "null") == 0);
+           (n->count == 0 || strcmp(n->text, "~") == 0 || strcmp(n->text, "null") == 0 || strcmp(n->text, "Null") == 0 ||
+            strcmp(n->text, "NULL") == 0);
 }
 
 /* ---- Events and marks ---- */
@@ -39,102 +49,119 @@ static struct span span_of(const struct reader *rd, yaml_mark_t from, yaml_mark_
 
 static struct span span_at(const struct reader *rd, yaml_mark_t at) { return span_of(rd, at, at); }
 
-/* What libyaml says, in the words of somebody who writes scenes. */
-static const struct {
-    const char *problem, *message, *help;
-} yaml_problems[] = {
-    {"found character that cannot start any token", "this character cannot start a value",
-     "YAML indents with spaces, not tabs, and a value that starts with @, ` or % must be quoted"},
-    {"found a tab character that violates indentation", "a tab in the indentation", "YAML indents with spaces"},
-    {"found unexpected end of stream", "a quote that is never closed", "close it"},
-    {"did not find expected ',' or ']'", "a list in [ ] that is not closed, or lacks a comma", "add `]` or `,`"},
-    {"did not find expected ',' or '}'", "a mapping in { } that is not closed, or lacks a comma", "add `}` or `,`"},
-    {"did not find expected key", "this line does not fit the lines before it", "give it the indentation of its siblings"},
-    {"did not find expected '-' indicator", "this line does not fit the list before it", "start it with `- `, or indent it into an item"},
-    {"mapping values are not allowed in this context", "a `:` where no key can stand",
-     "check the indentation, or quote the text"},
-    {"could not find expected ':'", "a key without a `:`", "a key and its value are written `key: value`"},
-    {"control characters are not allowed", "a control character", "remove it"},
-    {"invalid leading UTF-8 octet", "this is not UTF-8 text", "save the file as UTF-8"},
-    {"invalid trailing UTF-8 octet", "this is not UTF-8 text", "save the file as UTF-8"},
-    {"incomplete UTF-8 octet sequence", "this is not UTF-8 text", "save the file as UTF-8"},
-};
-
 /* Where a reader error is, which libyaml gives as an offset in bytes alone. */
 static struct span span_of_offset(const struct reader *rd, size_t offset) {
     struct span span = {rd->source, 0, 0, 1};
-    for (size_t i = 0; i < offset && i < rd->source->size; i++) {
-        const unsigned char c = (unsigned char)rd->source->text[i];
-        if (c == '\n') span.line++, span.column = 0;
-        else if ((c & 0xc0) != 0x80) span.column++;
+    for (size_t i = 0, line_break; i < offset && i < rd->source->size; i += line_break ? line_break : source_character(rd->source, i)) {
+        line_break = source_break(rd->source, i);
+        if (line_break) span.line++, span.column = 0;
+        else span.column++;
     }
     return span;
 }
 
-static void report_parser(struct reader *rd) {
+static void keep_problem(struct reader *rd) {
     const yaml_parser_t *p = &rd->parser;
     if (p->error == YAML_MEMORY_ERROR) {
         diag_failure(rd->diag, "%s: out of memory", rd->source->name);
         return;
     }
-    const char *problem = p->problem ? p->problem : "not YAML", *message = problem, *help = NULL;
-    for (size_t i = 0; i < sizeof yaml_problems / sizeof *yaml_problems; i++)
-        if (strcmp(yaml_problems[i].problem, problem) == 0) {
-            message = yaml_problems[i].message;
-            help = yaml_problems[i].help;
-        }
-    const struct span span =
-        p->error == YAML_READER_ERROR ? span_of_offset(rd, p->problem_offset) : span_at(rd, p->problem_mark);
-    struct diagnostic *d = diag_error(rd->diag, span, "%s", message);
-    if (help) diag_help(rd->diag, d, "%s", help);
-    const bool elsewhere = p->context_mark.line != p->problem_mark.line || p->context_mark.column != p->problem_mark.column;
-    if (p->context && elsewhere && p->error != YAML_READER_ERROR)
-        diag_related(rd->diag, d, span_at(rd, p->context_mark), "it belongs to what starts here");
+    rd->problem->text = p->problem ? p->problem : "not YAML";
+    rd->problem->context = p->context ? p->context : "";
+    rd->problem->at = p->error == YAML_READER_ERROR ? span_of_offset(rd, p->problem_offset) : span_at(rd, p->problem_mark);
+    rd->problem->context_at = span_at(rd, p->context_mark);
+}
+
+/* A text in quotes that ends where something unexpected follows may have begun far above. */
+static void keep_quoted(struct reader *rd) {
+    const yaml_event_t *e = &rd->event;
+    if (e->type != YAML_SCALAR_EVENT) return;
+    const yaml_scalar_style_t style = e->data.scalar.style;
+    if (style != YAML_SINGLE_QUOTED_SCALAR_STYLE && style != YAML_DOUBLE_QUOTED_SCALAR_STYLE) return;
+    rd->problem->quoted_at = span_at(rd, e->start_mark);
+    rd->problem->quoted_end = span_at(rd, e->end_mark);
 }
 
 static bool next_event(struct reader *rd) {
+    keep_quoted(rd);
     yaml_event_delete(&rd->event);
     if (yaml_parser_parse(&rd->parser, &rd->event)) return true;
-    report_parser(rd);
+    keep_problem(rd);
     return false;
 }
 
-/* Counts one more value against the limit. */
+/* Counts one more node against the limit. */
 static bool count_node(struct reader *rd, struct span span) {
+    rd->values += 1.0;
     if (++rd->nodes <= rd->limits->nodes) return true;
     diag_error(rd->diag, span, "more than %zu values in one file (the limit `values`)", rd->limits->nodes);
     return false;
 }
 
+static bool nesting_allowed(struct reader *rd, const struct node *node, unsigned height, const struct anchor *alias) {
+    if (rd->nesting + height <= rd->limits->nesting) return true;
+    struct diagnostic *d = diag_error(rd->diag, node->span, "more than %u levels of nesting (the limit `nesting`)", rd->limits->nesting);
+    if (alias) diag_related(rd->diag, d, alias->node->span, "`&%s` has %u of them", alias->name, alias->height);
+    return false;
+}
+
 /* ---- Anchors ---- */
 
+static const struct anchor *larger(const struct anchor *a, const struct anchor *b) {
+    return !a || (b && b->values > a->values) ? b : a;
+}
+
 static struct anchor *add_anchor(struct reader *rd, const yaml_char_t *name, struct node *node) {
-    if (!name) return NULL;
     struct anchor *a = arena_alloc(rd->arena, sizeof *a);
-    *a = (struct anchor){arena_text(rd->arena, (const char *)name, strlen((const char *)name)), node, true};
+    *a = (struct anchor){.name = arena_text(rd->arena, (const char *)name, strlen((const char *)name)), .node = node, .open = true};
     table_put(rd->arena, &rd->anchors, a->name, a);
     return a;
+}
+
+/* How the largest of the aliases comes to its size, from anchor to anchor. */
+static bool report_expansion(struct reader *rd, const struct anchor *largest) {
+    enum { CHAIN = 5 };
+    struct diagnostic *d = diag_error(rd->diag, rd->beyond->span, "aliases make %.6g values of this file, more than %zu (the limit `values`)",
+                                      rd->values, rd->limits->nodes);
+    int i = 0;
+    for (const struct anchor *a = largest; a && i < CHAIN; a = a->largest, i++)
+        if (a->largest) diag_related(rd->diag, d, a->node->span, "`&%s` makes %.6g, most of them by `*%s`", a->name, a->values, a->largest->name);
+        else diag_related(rd->diag, d, a->node->span, "`&%s` makes %.6g", a->name, a->values);
+    return false;
+}
+
+static bool report_no_anchor(struct reader *rd, const struct node *node, const char *name) {
+    struct spelling s = spelling_begin(name);
+    for (size_t i = 0; i < rd->anchors.capacity; i++)
+        if (rd->anchors.slots[i].name) spelling_offer(&s, rd->anchors.slots[i].name);
+    struct diagnostic *d = diag_error(rd->diag, node->span, "no anchor `&%.100s` before this alias", name);
+    if (!s.best) {
+        diag_help(rd->diag, d, "it repeats what stands behind `&%.100s`; a text that starts with `*` needs quotes", name);
+        return false;
+    }
+    const struct anchor *a = table_find(&rd->anchors, s.best);
+    diag_help(rd->diag, d, "did you mean `*%s`?", s.best);
+    diag_related(rd->diag, d, a->node->span, "`&%s` is given here", s.best);
+    return false;
 }
 
 static bool read_alias(struct reader *rd, struct node *node) {
     const char *name = (const char *)rd->event.data.alias.anchor;
     const struct anchor *a = table_find(&rd->anchors, name);
-    if (a && !a->open) {
-        node->kind = NODE_ALIAS;
-        node->target = a->node;
-        return true;
-    }
-    if (a) {
+    if (!a) return report_no_anchor(rd, node, name);
+    if (a->open) {
         struct diagnostic *d = diag_error(rd->diag, node->span, "`*%s` stands inside the very node that it names", name);
         diag_related(rd->diag, d, a->node->span, "`&%s` is given here", name);
         return false;
     }
-    struct spelling s = spelling_begin(name);
-    for (size_t i = 0; i < rd->anchors.capacity; i++)
-        if (rd->anchors.slots[i].name) spelling_offer(&s, rd->anchors.slots[i].name);
-    struct diagnostic *d = diag_error(rd->diag, node->span, "no anchor `&%s` before this alias", name);
-    if (s.best) diag_help(rd->diag, d, "did you mean `*%s`?", s.best);
-    return false;
+    if (!nesting_allowed(rd, node, a->height, a)) return false;
+    node->kind = NODE_ALIAS;
+    node->target = a->node;
+    rd->height = a->height;
+    rd->largest = larger(rd->largest, a);
+    rd->values += a->values;
+    if (!rd->beyond && rd->values > (double)rd->limits->nodes) rd->beyond = node;
+    return true;
 }
 
 /* ---- Merge keys ---- */
@@ -146,26 +173,42 @@ struct merge {
     struct node **tail;
 };
 
+/* The word that a key is, or NULL. */
+static const char *key_word(const struct node *key) {
+    const struct node *n = node_resolve(key);
+    return n->kind == NODE_SCALAR ? n->text : NULL;
+}
+
 static void merge_begin(struct reader *rd, struct merge *merge, struct node *into) {
     *merge = (struct merge){.into = into, .tail = &into->first};
     for (struct node *key = into->first; key; key = key->next->next) {
-        if (key->kind == NODE_SCALAR) table_put(rd->arena, &merge->keys, key->text, key);
+        if (key_word(key)) table_put(rd->arena, &merge->keys, key_word(key), key);
         merge->tail = &key->next->next;
     }
 }
 
-/* Appends copies of the pairs of `from` whose keys are not there yet. False past the limit of values,
- * for which every pair counts that is looked at. */
+/* Copies take memory that the text does not: a few for each of its nodes are enough for any scene. */
+static bool count_merged(struct reader *rd, struct span span) {
+    enum { FREE = 100000, EACH = 4 };
+    if (++rd->merged <= FREE + EACH * rd->nodes) return true;
+    struct diagnostic *d = diag_error(rd->diag, span, "merge keys (<<) have copied %zu pairs up to here, too many for a file of %zu values", rd->merged, rd->nodes);
+    diag_help(rd->diag, d, "use an alias for the whole, without <<");
+    return false;
+}
+
+/* Appends copies of the pairs of `from` whose keys are not there yet. False when it is too much. */
 static bool merge_pairs(struct reader *rd, struct merge *merge, const struct node *from) {
     for (const struct node *key = from->first; key; key = key->next->next) {
-        if (!count_node(rd, merge->into->span)) return false;
-        if (key->kind == NODE_SCALAR && table_find(&merge->keys, key->text)) continue;
+        if (!count_merged(rd, merge->into->span)) return false;
+        const char *word = key_word(key);
+        if (word && table_find(&merge->keys, word)) continue;
         struct node *pair = arena_array(rd->arena, 2, sizeof *pair);
         pair[0] = *key;
+        pair[0].merged = true;
         pair[1] = *key->next;
         pair[0].next = &pair[1];
         pair[1].next = NULL;
-        if (key->kind == NODE_SCALAR) table_put(rd->arena, &merge->keys, key->text, pair);
+        if (word) table_put(rd->arena, &merge->keys, word, pair);
         *merge->tail = pair;
         merge->tail = &pair[1].next;
         merge->into->count++;
@@ -216,24 +259,24 @@ static struct node *read_node(struct reader *rd);
 static bool read_children(struct reader *rd, struct node *node, yaml_event_type_t end) {
     struct node **tail = &node->first;
     uint32_t count = 0;
+    unsigned height = 0;
     for (;; count++) {
         if (!next_event(rd)) return false;
         if (rd->event.type == end) break;
         struct node *child = read_node(rd);
         if (!child) return false;
+        if (rd->height > height) height = rd->height;
         *tail = child;
         tail = &child->next;
     }
+    rd->height = height + 1;
     node->count = end == YAML_MAPPING_END_EVENT ? count / 2 : count;
     return true;
 }
 
 static bool read_collection(struct reader *rd, struct node *node, bool mapping) {
-    if (++rd->nesting > rd->limits->nesting) {
-        struct diagnostic *d = diag_error(rd->diag, node->span, "more than %u levels of nesting", rd->limits->nesting);
-        diag_help(rd->diag, d, "the limit `nesting`");
-        return false;
-    }
+    if (!nesting_allowed(rd, node, 1, NULL)) return false;
+    rd->nesting++;
     node->kind = mapping ? NODE_MAPPING : NODE_SEQUENCE;
     const bool ok = read_children(rd, node, mapping ? YAML_MAPPING_END_EVENT : YAML_SEQUENCE_END_EVENT) &&
                     (!mapping || merge_all(rd, node));
@@ -244,15 +287,54 @@ static bool read_collection(struct reader *rd, struct node *node, bool mapping) 
 static bool tag_allowed(struct reader *rd, const yaml_char_t *tag, const struct node *node) {
     const char *core = "tag:yaml.org,2002:";
     if (!tag || strcmp((const char *)tag, "!") == 0 || strncmp((const char *)tag, core, strlen(core)) == 0) return true;
-    diag_help(rd->diag, diag_error(rd->diag, node->span, "a scene has no tags, found `%s`", (const char *)tag), "remove the tag");
+    struct diagnostic *d = diag_error(rd->diag, node->span, "a scene has no tags, found `%.40s`", (const char *)tag);
+    diag_help(rd->diag, d, "remove what starts with `!`");
     return false;
 }
 
-static void read_scalar(struct reader *rd, struct node *node) {
+static bool read_scalar(struct reader *rd, struct node *node) {
+    const yaml_event_t *e = &rd->event;
+    const char *text = (const char *)e->data.scalar.value;
+    const size_t size = e->data.scalar.length;
+    if (memchr(text, '\0', size)) {
+        diag_help(rd->diag, diag_error(rd->diag, node->span, "a text with the character NUL in it"), "remove the `\\0`");
+        return false;
+    }
     node->kind = NODE_SCALAR;
-    node->quoted = rd->event.data.scalar.style != YAML_PLAIN_SCALAR_STYLE;
-    node->count = (uint32_t)rd->event.data.scalar.length;
-    node->text = arena_text(rd->arena, (const char *)rd->event.data.scalar.value, node->count);
+    node->quoted = e->data.scalar.style != YAML_PLAIN_SCALAR_STYLE;
+    node->count = (uint32_t)size;
+    node->text = arena_text(rd->arena, text, size);
+    rd->height = 0;
+    return true;
+}
+
+/* Without the anchor and the tag that libyaml counts to a node: of plain text on one line. */
+static void narrow_span(struct node *node, const yaml_event_t *e) {
+    uint32_t length = 0;
+    for (const char *c = node->text; *c; c++) length += ((unsigned char)*c & 0xc0) != 0x80;
+    if (node->quoted || e->start_mark.line != e->end_mark.line || length == 0 || length >= node->span.length) return;
+    node->span.column += node->span.length - length;
+    node->span.length = length;
+}
+
+static bool read_content(struct reader *rd, struct node *node) {
+    const bool scalar = rd->event.type == YAML_SCALAR_EVENT;
+    if (!scalar) return read_collection(rd, node, rd->event.type == YAML_MAPPING_START_EVENT);
+    if (!read_scalar(rd, node)) return false;
+    narrow_span(node, &rd->event);
+    return true;
+}
+
+/* An anchored node: what it takes to repeat it is kept with its name. */
+static bool read_anchored(struct reader *rd, struct node *node, const yaml_char_t *name) {
+    const struct anchor *outer = rd->largest;
+    const double before = rd->values - 1.0; /* the node itself is counted */
+    struct anchor *a = add_anchor(rd, name, node);
+    rd->largest = NULL;
+    if (!read_content(rd, node)) return false;
+    *a = (struct anchor){a->name, node, false, rd->values - before, rd->height, rd->largest};
+    rd->largest = larger(outer, rd->largest);
+    return true;
 }
 
 /* The node that the current event starts; NULL when it was reported as wrong. */
@@ -266,40 +348,51 @@ static struct node *read_node(struct reader *rd) {
     const bool scalar = e->type == YAML_SCALAR_EVENT, mapping = e->type == YAML_MAPPING_START_EVENT;
     const yaml_char_t *tag = scalar ? e->data.scalar.tag : mapping ? e->data.mapping_start.tag : e->data.sequence_start.tag;
     if (!tag_allowed(rd, tag, node)) return NULL;
-    struct anchor *anchor = add_anchor(rd, scalar    ? e->data.scalar.anchor
-                                           : mapping ? e->data.mapping_start.anchor
-                                                     : e->data.sequence_start.anchor, node);
-    if (scalar) read_scalar(rd, node);
-    else if (!read_collection(rd, node, mapping)) return NULL;
-    if (anchor) anchor->open = false;
-    return node;
+    const yaml_char_t *anchor = scalar    ? e->data.scalar.anchor
+                                : mapping ? e->data.mapping_start.anchor
+                                          : e->data.sequence_start.anchor;
+    return (anchor ? read_anchored(rd, node, anchor) : read_content(rd, node)) ? node : NULL;
 }
 
 /* ---- Documents ---- */
 
-static const char smallest_scene[] = "the smallest scene is:  scene: [{sphere: {}}]";
+static bool report_empty(struct reader *rd) {
+    struct diagnostic *d = diag_error(rd->diag, (struct span){rd->source, 0, 0, 1}, "the file is empty");
+    diag_help(rd->diag, d, "the smallest scene is:  scene: [{sphere: {}}]");
+    return false;
+}
+
+/* libyaml compares each %TAG directive with all before it, which many make slow. */
+static bool tag_directives_allowed(struct reader *rd) {
+    enum { MANY = 100 };
+    const char *at = rd->source->text, *end = at + rd->source->size;
+    for (int i = 0; (at = memmem(at, (size_t)(end - at), "%TAG", 4)); at++)
+        if (++i > MANY) {
+            diag_error(rd->diag, (struct span){rd->source, 0, 0, 1}, "more than %d times %%TAG: a scene has no tags", MANY);
+            return false;
+        }
+    return true;
+}
 
 static struct node *read_stream(struct reader *rd) {
-    if (!next_event(rd)) return NULL; /* stream start */
-    if (!next_event(rd)) return NULL;
-    if (rd->event.type == YAML_STREAM_END_EVENT) {
-        diag_help(rd->diag, diag_error(rd->diag, (struct span){rd->source, 0, 0, 1}, "the file is empty"), "%s", smallest_scene);
-        return NULL;
-    }
+    if (!tag_directives_allowed(rd) || !next_event(rd) /* stream start */ || !next_event(rd)) return NULL;
+    if (rd->event.type == YAML_STREAM_END_EVENT && !report_empty(rd)) return NULL;
     if (!next_event(rd)) return NULL;
     struct node *root = read_node(rd);
     if (!root || !next_event(rd) /* document end */ || !next_event(rd)) return NULL;
     if (rd->event.type != YAML_STREAM_END_EVENT) {
-        diag_help(rd->diag, diag_error(rd->diag, span_at(rd, rd->event.start_mark), "a second document in the file"),
-                  "a scene is one document: it would be ignored; remove it, or this `---`");
+        struct diagnostic *d = diag_error(rd->diag, span_at(rd, rd->event.start_mark), "a second document in the file");
+        diag_help(rd->diag, d, "a scene is one document: it would be ignored; remove it, or this `---`");
         return NULL;
     }
+    if (node_is_null(root) && !report_empty(rd)) return NULL;
+    if (rd->beyond && !report_expansion(rd, rd->largest)) return NULL;
     return root;
 }
 
 struct node *node_parse(struct arena *arena, struct diagnostics *diag, const struct source *source,
-                        const struct node_limits *limits) {
-    struct reader rd = {.arena = arena, .diag = diag, .source = source, .limits = limits};
+                        const struct node_limits *limits, struct node_problem *problem) {
+    struct reader rd = {.arena = arena, .diag = diag, .source = source, .limits = limits, .problem = problem};
     if (!yaml_parser_initialize(&rd.parser)) {
         diag_failure(diag, "%s: out of memory", source->name);
         return NULL;

@@ -4,40 +4,7 @@
 #include "shape/shape.h"
 
 static const vec3 default_direction = {-0.45, -0.38, -1.0}; /* from in front, above and right */
-static const double margin = 1.25;                          /* around a framed scene */
-
-/* What a picture should show: a box, and a ball about the middle of interest that holds the scene. */
-struct frame {
-    box3 box;
-    vec3 middle;
-    double radius;
-};
-
-static double primitive_reach(const struct primitives *p, uint32_t number, vec3 middle) {
-    const primitive_ref ref = p->info[number].ref;
-    if (primitive_ref_kind(ref) == PRIMITIVE_SPHERE) {
-        const struct sphere *sphere = &p->spheres[primitive_ref_index(ref)];
-        return vec3_length(vec3_sub(sphere->center, middle)) + sphere->radius;
-    }
-    const box3 box = shape_bounds(p, ref);
-    if (!box3_is_bounded(box)) return 0.0;
-    const vec3 low = vec3_abs(vec3_sub(box.min, middle)), high = vec3_abs(vec3_sub(box.max, middle));
-    return vec3_length((vec3){box3_upper(low.x, high.x), box3_upper(low.y, high.y), box3_upper(low.z, high.z)});
-}
-
-static struct frame frame_of(const struct scene *scene, box3 bounds) {
-    const struct camera *camera = &scene->camera;
-    struct frame frame = {.box = box3_is_bounded(bounds) ? bounds : (box3){{-1, -1, -1}, {1, 1, 1}}};
-    frame.middle = camera->has_look_at ? camera->look_at : box3_center(frame.box);
-    for (uint32_t i = 0; i < scene->primitives.count; i++)
-        frame.radius = box3_upper(frame.radius, primitive_reach(&scene->primitives, i, frame.middle));
-    if (!(frame.radius > 0.0)) frame.radius = 1.0;
-    return frame;
-}
-
-static vec3 corner(box3 box, int i) {
-    return (vec3){i & 1 ? box.max.x : box.min.x, i & 2 ? box.max.y : box.min.y, i & 4 ? box.max.z : box.min.z};
-}
+static const double margin = 1.2;                           /* of the picture around a framed scene */
 
 /* Axes of length one with `forward` as given; `up` where the camera leaves it open for a view
  * straight up or down. */
@@ -50,54 +17,83 @@ static void set_axes(struct view *view, const struct camera *camera, vec3 forwar
     view->up = vec3_cross(view->right, view->forward);
 }
 
-/* The least distance from the middle at which a perspective camera sees the whole box, or the whole
- * ball if that is nearer; tan_x, tan_y are the half widths of the view at distance one. */
-static double framing_distance(const struct view *view, const struct frame *frame, double tan_x, double tan_y) {
-    double box_needs = 0.0;
-    for (int i = 0; i < 8; i++) {
-        const vec3 p = vec3_sub(corner(frame->box, i), frame->middle);
-        const double x = fabs(vec3_dot(p, view->right)) / tan_x, y = fabs(vec3_dot(p, view->up)) / tan_y;
-        box_needs = box3_upper(box_needs, margin * box3_upper(x, y) - vec3_dot(p, view->forward));
+/* ---- Framing: where to stand so that all bounded primitives are in the picture ---- */
+
+/* How far the bounded primitives reach along the direction; a unit ball stands for none. */
+static double reach(const struct primitives *p, vec3 direction) {
+    double most = -INFINITY;
+    for (uint32_t i = 0; i < p->count; i++) {
+        const double one = shape_support(p, p->info[i].ref, direction);
+        if (one > most && one < INFINITY) most = one;
     }
-    const double least = box3_lower(tan_x, tan_y);
-    const double ball_needs = margin * frame->radius * sqrt(1.0 + 1.0 / (least * least));
-    return box3_lower(box_needs, ball_needs);
+    return most > -INFINITY ? most : vec3_length(direction);
 }
 
-/* Half the height of an orthographic view that frames the scene. */
-static double framing_height(const struct view *view, const struct frame *frame, vec3 from, double aspect) {
-    double box_needs = 0.0;
-    for (int i = 0; i < 8; i++) {
-        const vec3 p = vec3_sub(corner(frame->box, i), from);
-        box_needs = box3_upper(box_needs, box3_upper(fabs(vec3_dot(p, view->right)) / aspect, fabs(vec3_dot(p, view->up))));
-    }
-    const vec3 away = vec3_sub(frame->middle, from);
-    const double aside = box3_upper(fabs(vec3_dot(away, view->right)), fabs(vec3_dot(away, view->up)));
-    return margin * box3_lower(box_needs, (aside + frame->radius) / box3_lower(aspect, 1.0));
+/* The place along one axis of the picture, and how far back, from which the two sides of a view with
+ * half width `tangent` at distance one just hold the scene. A side with the normal n holds it where
+ * n . eye >= reach(n); the two are n = +-axis - tangent forward. With `through`, a point to keep in
+ * the middle, `place` is its own. `back` is along -forward from the origin. */
+static void stand(const struct primitives *p, const struct view *view, vec3 axis, double tangent, const vec3 *through,
+                  double *place, double *back) {
+    const vec3 inward = vec3_scale(view->forward, -tangent);
+    const double high = reach(p, vec3_add(inward, axis)), low = reach(p, vec3_sub(inward, axis));
+    *place = through ? vec3_dot(*through, axis) : 0.5 * (high - low);
+    *back = box3_upper(high - *place, low + *place) / tangent;
 }
 
-static vec3 view_direction(const struct camera *camera, const struct frame *frame) {
+static vec3 perspective_eye(const struct primitives *p, const struct view *view, double tan_x, double tan_y, const vec3 *through) {
+    double x, y, back_x, back_y;
+    stand(p, view, view->right, tan_x / margin, through, &x, &back_x);
+    stand(p, view, view->up, tan_y / margin, through, &y, &back_y);
+    const vec3 across = vec3_madd(vec3_scale(view->right, x), y, view->up);
+    return vec3_madd(across, -box3_upper(back_x, back_y), view->forward);
+}
+
+/* An orthographic camera stands in front of everything. */
+static vec3 orthographic_eye(const struct primitives *p, const struct view *view, const vec3 *through) {
+    const double front = reach(p, vec3_neg(view->forward)), depth = front + reach(p, view->forward);
+    const double x = 0.5 * (reach(p, view->right) - reach(p, vec3_neg(view->right)));
+    const double y = 0.5 * (reach(p, view->up) - reach(p, vec3_neg(view->up)));
+    const vec3 middle = through ? *through : vec3_madd(vec3_scale(view->right, x), y, view->up);
+    return vec3_madd(middle, -(front + vec3_dot(middle, view->forward) + depth), view->forward);
+}
+
+/* Half the height of an orthographic view from `eye` that holds the scene. */
+static double orthographic_half(const struct primitives *p, const struct view *view, vec3 eye, double aspect) {
+    const double x = vec3_dot(eye, view->right), y = vec3_dot(eye, view->up);
+    const double wide = box3_upper(reach(p, view->right) - x, reach(p, vec3_neg(view->right)) + x);
+    const double high = box3_upper(reach(p, view->up) - y, reach(p, vec3_neg(view->up)) + y);
+    return margin * box3_upper(wide / aspect, high);
+}
+
+/* ---- The view ---- */
+
+static vec3 view_direction(const struct camera *camera, vec3 middle) {
     if (camera->has_direction) return camera->direction;
     if (!camera->has_eye) return default_direction;
-    const vec3 to_middle = vec3_sub(frame->middle, camera->eye);
+    const vec3 to_middle = vec3_sub(middle, camera->eye);
     return vec3_max_abs(to_middle) > 0.0 ? to_middle : (vec3){0, 0, -1};
 }
 
 struct view camera_view(const struct scene *scene, box3 bounds, uint32_t width, uint32_t height) {
     const struct camera *camera = &scene->camera;
-    const struct frame frame = frame_of(scene, bounds);
+    const struct primitives *p = &scene->primitives;
+    const vec3 center = box3_is_bounded(bounds) ? box3_center(bounds) : (vec3){0, 0, 0};
+    const vec3 middle = camera->has_look_at ? camera->look_at : center;
+    const vec3 *through = camera->has_look_at ? &middle : NULL;
     const double aspect = (double)width / (double)height;
     const double tan_y = elementary_tan_deg(0.5 * camera->fov_deg), tan_x = tan_y * aspect;
     struct view view = {.orthographic = camera->projection == CAMERA_ORTHOGRAPHIC};
-    set_axes(&view, camera, view_direction(camera, &frame));
+    set_axes(&view, camera, view_direction(camera, middle));
 
-    view.distance = view.orthographic ? 2.0 * frame.radius : framing_distance(&view, &frame, tan_x, tan_y);
-    if (camera->has_eye) view.distance = vec3_length(vec3_sub(frame.middle, camera->eye));
-    view.eye = camera->has_eye ? camera->eye : vec3_madd(frame.middle, -view.distance, view.forward);
+    if (camera->has_eye) view.eye = camera->eye;
+    else if (view.orthographic) view.eye = orthographic_eye(p, &view, through);
+    else view.eye = perspective_eye(p, &view, tan_x, tan_y, through);
+    view.distance = vec3_length(vec3_sub(middle, view.eye));
 
     const double half = !view.orthographic   ? tan_y
                         : camera->has_height ? 0.5 * camera->height
-                                             : framing_height(&view, &frame, view.eye, aspect);
+                                             : orthographic_half(p, &view, view.eye, aspect);
     view.right = vec3_scale(view.right, half * aspect);
     view.up = vec3_scale(view.up, half);
     return view;

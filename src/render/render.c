@@ -88,10 +88,13 @@ static void render_pixel(const struct rendering *rd, uint32_t x, uint32_t y, uin
         const double px = ((double)(region->x + x) + rd->samples[i].x) / s->width;
         const double py = ((double)(region->y + y) + rd->samples[i].y) / s->height;
         const ray r = camera_ray(&rd->view, px, py);
-        const struct media at_origin = rd->view.orthographic && rd->candidate_count
-                                           ? media_at(rd->tracer.scene, rd->candidates, rd->candidate_count, r)
-                                           : rd->media;
-        sum = vec3_add(sum, trace_ray(&rd->tracer, r, &at_origin, rays));
+        struct media here;
+        const struct media *media = &rd->media;
+        if (rd->view.orthographic && rd->candidate_count) {
+            here = media_at(rd->tracer.scene, rd->candidates, rd->candidate_count, r);
+            media = &here;
+        }
+        sum = vec3_add(sum, trace_ray(&rd->tracer, r, media, rays));
     }
     float *pixel = film_pixel(rd->film, x, y);
     pixel[0] = (float)(sum.x / s->samples);

@@ -10,7 +10,7 @@ static const double least_weight = 1e-5;
 struct path {
     const struct tracer *tracer;
     uint64_t *rays;
-    struct media media;
+    const struct media *media; /* at the origin of its ray */
     unsigned depth; /* generation of its ray, from 1 */
     vec3 weight;    /* by which its light reaches the pixel */
 };
@@ -80,9 +80,9 @@ static vec3 shade_local(const struct path *path, const struct meeting *m) {
     return color;
 }
 
-/* What a secondary ray brings, times `factor`. The path's media are those at the ray's origin. */
+/* What a secondary ray brings, times `factor`. `media` is at the ray's origin. */
 static vec3 follow_secondary(const struct path *from, ray r, vec3 factor, const struct media *media, enum monge_ray kind) {
-    struct path path = {from->tracer, from->rays, *media, from->depth + 1, vec3_mul(from->weight, factor)};
+    struct path path = {from->tracer, from->rays, media, from->depth + 1, vec3_mul(from->weight, factor)};
     if (vec3_max_abs(path.weight) < least_weight) return vec3_all(0.0);
     path.rays[kind]++;
     return vec3_mul(factor, follow(&path, r));
@@ -105,9 +105,9 @@ static vec3 shade_secondary(const struct path *path, const struct meeting *m, ui
     vec3 mirrored = material->reflection, color = vec3_all(0.0);
     if (vec3_max_abs(material->refraction) > 0.0) {
         bool was_inside = true;
-        const struct media beyond = m->outside ? media_enter(path->tracer->scene, &path->media, number)
-                                               : media_leave(&path->media, number, &was_inside);
-        const double n1 = m->outside || was_inside ? media_index(&path->media) : material->index;
+        const struct media beyond = m->outside ? media_enter(path->tracer->scene, path->media, number)
+                                               : media_leave(path->media, number, &was_inside);
+        const double n1 = m->outside || was_inside ? media_index(path->media) : material->index;
         const double n2 = m->outside ? material->index : media_index(&beyond);
         vec3 dir;
         if (refract(m->dir, toward, n1, n2, &dir)) {
@@ -120,7 +120,7 @@ static vec3 shade_secondary(const struct path *path, const struct meeting *m, ui
     if (!(vec3_max_abs(mirrored) > 0.0)) return color;
     const vec3 dir = vec3_madd(m->dir, -2.0 * vec3_dot(m->dir, toward), toward);
     const ray r = {leave_point(m, toward), dir};
-    return vec3_add(color, follow_secondary(path, r, mirrored, &path->media, MONGE_RAY_REFLECTION));
+    return vec3_add(color, follow_secondary(path, r, mirrored, path->media, MONGE_RAY_REFLECTION));
 }
 
 static vec3 follow(struct path *path, ray r) {
@@ -140,7 +140,7 @@ static vec3 follow(struct path *path, ray r) {
 }
 
 vec3 trace_ray(const struct tracer *tracer, ray r, const struct media *media, uint64_t rays[MONGE_RAY_KINDS]) {
-    struct path path = {tracer, rays, *media, 1, vec3_all(1.0)};
+    struct path path = {tracer, rays, media, 1, vec3_all(1.0)};
     rays[MONGE_RAY_CAMERA]++;
     return follow(&path, r);
 }

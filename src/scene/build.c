@@ -29,7 +29,18 @@ static void node_build(struct builder *b, const struct object_value *node, affin
     for (uint32_t i = 0; i < members.count; i++) node_build(b, members.items[i], world_from_node, material);
 }
 
+/* Warns of a picture that is the background alone, or black objects. */
+static void warn_nothing_seen(struct builder *b, const struct object_value *file) {
+    if (b->scene->primitives.count == 0) {
+        struct diagnostic *d = diag_warning(b->diag, object_span(file, KEY_FILE_SCENE), "no objects: only the background will be seen");
+        diag_help(b->diag, d, "add one, as in `- sphere: {}`");
+    } else {
+        lights_check(b, file);
+    }
+}
+
 bool scene_build(struct arena *arena, struct diagnostics *diag, const struct object_value *file, struct scene *scene) {
+    const unsigned errors = diag->errors;
     struct builder b = {.arena = arena, .diag = diag, .scene = scene, .default_material = NO_MATERIAL};
     *scene = (struct scene){0};
     settings_build(&b, file);
@@ -38,5 +49,6 @@ bool scene_build(struct arena *arena, struct diagnostics *diag, const struct obj
     materials_build(&b, file);
     const struct object_list nodes = object_list(file, KEY_FILE_SCENE);
     for (uint32_t i = 0; i < nodes.count; i++) node_build(&b, nodes.items[i], AFFINE_IDENTITY, NULL);
-    return diag->errors == 0;
+    if (diag->errors == errors && !file->failed) warn_nothing_seen(&b, file);
+    return diag->errors == errors;
 }

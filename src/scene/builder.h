@@ -26,6 +26,9 @@ void settings_build(struct builder *b, const struct object_value *file);
 void camera_build(struct builder *b, const struct object_value *file);
 void lights_build(struct builder *b, const struct object_value *file);
 
+/* Warns where no light reaches any object; after all of them are built. */
+void lights_check(struct builder *b, const struct object_value *file);
+
 /* All named materials of the file, in its order: the index of each is its `definition`. */
 void materials_build(struct builder *b, const struct object_value *file);
 

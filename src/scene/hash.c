@@ -39,7 +39,6 @@ static void hash_material(struct hash *hash, const struct material *m) {
 static void hash_primitive(struct hash *hash, const struct primitives *p, const struct primitive_info *info) {
     const uint32_t index = primitive_ref_index(info->ref);
     hash_integer(hash, info->ref);
-    hash_integer(hash, info->material);
     switch (primitive_ref_kind(info->ref)) {
     case PRIMITIVE_SPHERE:
         hash_vec3(hash, p->spheres[index].center);
@@ -55,6 +54,22 @@ static void hash_primitive(struct hash *hash, const struct primitives *p, const 
     hash_form(hash, p->quadrics[index].form);
 }
 
+/* Materials by their values, at each primitive that has them: not by name or number, nor unused ones. */
+static void hash_primitives(struct hash *hash, const struct scene *scene) {
+    const struct primitives *p = &scene->primitives;
+    struct hash material = {0, 0};
+    hash_integer(hash, p->count);
+    for (uint32_t i = 0; i < p->count; i++) {
+        if (i == 0 || p->info[i].material != p->info[i - 1].material) {
+            hash_begin(&material);
+            hash_material(&material, &scene->materials[p->info[i].material]);
+        }
+        hash_integer(hash, material.high);
+        hash_integer(hash, material.low);
+        hash_primitive(hash, p, &p->info[i]);
+    }
+}
+
 void scene_hash(const struct scene *scene, struct hash *hash) {
     hash_integer(hash, scene->two_sided);
     hash_integer(hash, scene->highlight_always);
@@ -68,8 +83,5 @@ void scene_hash(const struct scene *scene, struct hash *hash) {
         hash_vec3(hash, scene->lights[i].at);
         hash_vec3(hash, scene->lights[i].color);
     }
-    hash_integer(hash, scene->material_count);
-    for (uint32_t i = 0; i < scene->material_count; i++) hash_material(hash, &scene->materials[i]);
-    hash_integer(hash, scene->primitives.count);
-    for (uint32_t i = 0; i < scene->primitives.count; i++) hash_primitive(hash, &scene->primitives, &scene->primitives.info[i]);
+    hash_primitives(hash, scene);
 }

@@ -42,7 +42,6 @@ struct quadric_form {
     double xx, yy, zz, xy, yz, zx, x, y, z, constant;
     box3 clip;   /* object space */
     box3 extent; /* object space: holds all of the shape; infinite where the shape is */
-    bool round;  /* all of `extent` that matters lies within its ellipse about z (tighter world bounds) */
     bool open;
 };
 

@@ -40,7 +40,9 @@ void settings_build(struct builder *b, const struct object_value *file) {
     scene->two_sided = object_choice(render, KEY_RENDER_TWO_SIDED);
     scene->highlight_always = object_choice(render, KEY_RENDER_HIGHLIGHT) == CHOICE_RENDER_HIGHLIGHT_ALWAYS;
     const char *wrong = monge_settings_check(s);
-    if (wrong) diag_error(b->diag, object_has(image, KEY_IMAGE_SIZE) ? object_span(image, KEY_IMAGE_SIZE) : image->span, "%s", wrong);
+    if (!wrong) return;
+    struct diagnostic *d = diag_error(b->diag, object_span(image, KEY_IMAGE_SIZE), "%s", wrong);
+    diag_help(b->diag, d, "%u x %u would take %.3g GiB", (unsigned)s->width, (unsigned)s->height, 12.0 * s->width * s->height / (1 << 30));
 }
 
 /* ---- Camera ---- */
@@ -113,9 +115,31 @@ void lights_build(struct builder *b, const struct object_value *file) {
     scene->lights = arena_array(b->arena, list.count ? list.count : 1, sizeof *scene->lights);
     scene->light_count = list.count;
     for (uint32_t i = 0; i < list.count; i++) scene->lights[i] = light_build(list.items[i]);
-    if (scene->default_lights || list.count > 0 || scene->settings.shading == MONGE_SHADING_SIGNATURE || file->failed) return;
-    struct diagnostic *d = diag_warning(b->diag, object_span(file, KEY_FILE_LIGHTS), "no light: everything will be black");
-    diag_help(b->diag, d, "add one, or remove `lights` for the default ones");
+}
+
+static bool is_black(vec3 color) { return !(vec3_max_abs(color) > 0.0); }
+
+/* Whether the object gives back nothing of the lights, nor of what is around it. */
+static bool looks_black(const struct scene *scene, const struct material *m) {
+    bool lit = false;
+    for (uint32_t i = 0; i < scene->light_count; i++) {
+        const struct light *light = &scene->lights[i];
+        const bool takes = light->kind == LIGHT_AMBIENT ? !is_black(m->ambient) : !is_black(m->diffuse) || !is_black(m->specular);
+        lit |= takes && !is_black(light->color);
+    }
+    return !lit && is_black(m->reflection) && is_black(m->refraction);
+}
+
+void lights_check(struct builder *b, const struct object_value *file) {
+    const struct scene *scene = b->scene;
+    if (scene->default_lights || scene->settings.shading == MONGE_SHADING_SIGNATURE) return;
+    bool ambient_alone = scene->light_count > 0;
+    for (uint32_t i = 0; i < scene->light_count; i++) ambient_alone &= scene->lights[i].kind == LIGHT_AMBIENT;
+    for (uint32_t i = 0; i < scene->primitives.count; i++)
+        if (!looks_black(scene, &scene->materials[scene->primitives.info[i].material])) return;
+    struct diagnostic *d = diag_warning(b->diag, object_span(file, KEY_FILE_LIGHTS), scene->light_count == 0 ? "no light: everything will be black" : "no light that any material gives back: everything will be black");
+    if (ambient_alone) diag_help(b->diag, d, "give the materials an `ambient` colour, or add a point light");
+    else diag_help(b->diag, d, "add one, or remove `lights` for the default ones");
 }
 
 /* ---- Materials ---- */

@@ -9,21 +9,21 @@
 /* Indexed by `open`. */
 static const struct quadric_form ellipsoid_form = {
     .xx = 1, .yy = 1, .zz = 1, .constant = -1,
-    .clip = {{-INFINITY, -INFINITY, -INFINITY}, {INFINITY, INFINITY, INFINITY}}, .extent = UNIT_EXTENT(-1, 1), .round = true};
+    .clip = {{-INFINITY, -INFINITY, -INFINITY}, {INFINITY, INFINITY, INFINITY}}, .extent = UNIT_EXTENT(-1, 1)};
 static const struct quadric_form cylinder_form[2] = {
-    {.xx = 1, .yy = 1, .constant = -1, .clip = SLAB(-0.5, 0.5), .extent = UNIT_EXTENT(-0.5, 0.5), .round = true},
-    {.xx = 1, .yy = 1, .constant = -1, .clip = SLAB(-0.5, 0.5), .extent = UNIT_EXTENT(-0.5, 0.5), .round = true, .open = true}};
+    {.xx = 1, .yy = 1, .constant = -1, .clip = SLAB(-0.5, 0.5), .extent = UNIT_EXTENT(-0.5, 0.5)},
+    {.xx = 1, .yy = 1, .constant = -1, .clip = SLAB(-0.5, 0.5), .extent = UNIT_EXTENT(-0.5, 0.5), .open = true}};
 static const struct quadric_form cone_form[2] = {
-    {.xx = 1, .yy = 1, .zz = -1, .clip = SLAB(-1, 0), .extent = UNIT_EXTENT(-1, 0), .round = true},
-    {.xx = 1, .yy = 1, .zz = -1, .clip = SLAB(-1, 0), .extent = UNIT_EXTENT(-1, 0), .round = true, .open = true}};
+    {.xx = 1, .yy = 1, .zz = -1, .clip = SLAB(-1, 0), .extent = UNIT_EXTENT(-1, 0)},
+    {.xx = 1, .yy = 1, .zz = -1, .clip = SLAB(-1, 0), .extent = UNIT_EXTENT(-1, 0), .open = true}};
 static const struct quadric_form paraboloid_form[2] = {
-    {.xx = 1, .yy = 1, .z = -1, .clip = SLAB(0, 1), .extent = UNIT_EXTENT(0, 1), .round = true},
-    {.xx = 1, .yy = 1, .z = -1, .clip = SLAB(0, 1), .extent = UNIT_EXTENT(0, 1), .round = true, .open = true}};
+    {.xx = 1, .yy = 1, .z = -1, .clip = SLAB(0, 1), .extent = UNIT_EXTENT(0, 1)},
+    {.xx = 1, .yy = 1, .z = -1, .clip = SLAB(0, 1), .extent = UNIT_EXTENT(0, 1), .open = true}};
 #define SQRT2_UP 1.4142135623730952
 #define RIM_EXTENT {{-SQRT2_UP, -SQRT2_UP, -1}, {SQRT2_UP, SQRT2_UP, 1}}
 static const struct quadric_form hyperboloid_form[2] = {
-    {.xx = 1, .yy = 1, .zz = -1, .constant = -1, .clip = SLAB(-1, 1), .extent = RIM_EXTENT, .round = true},
-    {.xx = 1, .yy = 1, .zz = -1, .constant = -1, .clip = SLAB(-1, 1), .extent = RIM_EXTENT, .round = true, .open = true}};
+    {.xx = 1, .yy = 1, .zz = -1, .constant = -1, .clip = SLAB(-1, 1), .extent = RIM_EXTENT},
+    {.xx = 1, .yy = 1, .zz = -1, .constant = -1, .clip = SLAB(-1, 1), .extent = RIM_EXTENT, .open = true}};
 static const struct quadric_form box_form = {.constant = -1,
                                              .clip = {{-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}},
                                              .extent = {{-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}}};
@@ -122,7 +122,9 @@ static bool corners(struct builder *b, const struct object_value *box, int min_k
     if (!axis) return true;
     const struct span span = object_has(box, max_key) ? object_span(box, max_key) : object_span(box, min_key);
     struct diagnostic *d = diag_error(b->diag, span, "`max` must be greater than `min` in %s", axis);
-    diag_help(b->diag, d, "here [%g, %g, %g] to [%g, %g, %g]", min.x, min.y, min.z, max.x, max.y, max.z);
+    if (!object_has(box, max_key)) diag_help(b->diag, d, "`max` is [%g, %g, %g] unless it is given", max.x, max.y, max.z);
+    else if (!object_has(box, min_key)) diag_help(b->diag, d, "`min` is [%g, %g, %g] unless it is given", min.x, min.y, min.z);
+    else diag_help(b->diag, d, "here [%g, %g, %g] to [%g, %g, %g]", min.x, min.y, min.z, max.x, max.y, max.z);
     return false;
 }
 

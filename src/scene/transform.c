@@ -43,12 +43,17 @@ static affine step_build(struct builder *b, const struct object_value *step, int
     }
 }
 
-static void report_singular(struct builder *b, const struct object_value *step, int key) {
-    struct diagnostic *d = diag_error(b->diag, object_span(step, key), "this %s has no inverse", step->kind->keys[key].name);
+static void report_singular(struct builder *b, const struct object_value *step, int key, affine map) {
+    const char *name = step->kind->keys[key].name;
     const vec3 v = key == KEY_STEP_SCALE ? object_vec3(step, key) : vec3_all(1);
-    if (v.x == 0 || v.y == 0 || v.z == 0)
-        diag_help(b->diag, d, "a factor of 0 flattens the object; for something flat use `square` or `disc`");
-    else diag_help(b->diag, d, "it flattens the object, or its numbers are out of range");
+    const bool flat = v.x == 0 || v.y == 0 || v.z == 0;
+    if (!flat && (key == KEY_STEP_SCALE || !(vec3_max_abs(affine_column(map, 3)) < 1e100))) {
+        struct diagnostic *d = diag_error(b->diag, object_span(step, key), "this `%s` is out of range", name);
+        diag_help(b->diag, d, "its numbers must lie within 1e-100 to 1e100");
+        return;
+    }
+    struct diagnostic *d = diag_error(b->diag, object_span(step, key), "this `%s` has no inverse", name);
+    diag_help(b->diag, d, flat ? "a factor of 0 flattens the object; for something flat use `square` or `disc`" : "it flattens the object, or its numbers are out of range");
 }
 
 bool transform_build(struct builder *b, struct object_list steps, affine *out) {
@@ -60,7 +65,7 @@ bool transform_build(struct builder *b, struct object_list steps, affine *out) {
         if (key < 0 || step->failed) continue;
         const affine one = step_build(b, step, key);
         if (!affine_invert(one, &inverse)) {
-            report_singular(b, step, key);
+            report_singular(b, step, key, one);
             ok = false;
         } else {
             all = affine_compose(one, all);

@@ -90,3 +90,43 @@ box3 shape_bounds(const struct primitives *p, primitive_ref ref) {
     }
     return quadric_bounds(&p->quadrics[index]);
 }
+
+/* ---- Along any direction ---- */
+
+static double flat_support(const struct flat *f, vec3 direction) {
+    const double x = vec3_dot(affine_column(f->world_from_object, 0), direction);
+    const double y = vec3_dot(affine_column(f->world_from_object, 1), direction);
+    const double center = vec3_dot(affine_column(f->world_from_object, 3), direction);
+    switch (f->outline) {
+    case FLAT_PLANE: return INFINITY;
+    case FLAT_SQUARE: return center + 0.5 * (fabs(x) + fabs(y));
+    case FLAT_DISC: break;
+    }
+    return center + sqrt(x * x + y * y);
+}
+
+static double quadric_support(const struct quadric *q, vec3 direction) {
+    const box3 extent = q->form->extent;
+    if (!box3_is_bounded(extent)) return INFINITY;
+    double row[4];
+    for (int i = 0; i < 4; i++) row[i] = vec3_dot(affine_column(q->world_from_object, i), direction);
+    const double x = row[0] * (row[0] > 0.0 ? extent.max.x : extent.min.x);
+    const double y = row[1] * (row[1] > 0.0 ? extent.max.y : extent.min.y);
+    const double z = row[2] * (row[2] > 0.0 ? extent.max.z : extent.min.z);
+    double most = x + y + z;
+    if (form_is_upright(q->form)) most = box3_lower(most, upright_support(q->form, row, extent.min.z, extent.max.z));
+    return row[3] + most;
+}
+
+double shape_support(const struct primitives *p, primitive_ref ref, vec3 direction) {
+    const uint32_t index = primitive_ref_index(ref);
+    const struct sphere *sphere;
+    switch (primitive_ref_kind(ref)) {
+    case PRIMITIVE_SPHERE:
+        sphere = &p->spheres[index];
+        return vec3_dot(sphere->center, direction) + sphere->radius * vec3_length(direction);
+    case PRIMITIVE_FLAT: return flat_support(&p->flats[index], direction);
+    case PRIMITIVE_QUADRIC: break;
+    }
+    return quadric_support(&p->quadrics[index], direction);
+}

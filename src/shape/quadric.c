@@ -25,10 +25,10 @@ static inline bool chord_cut_axis(double org, double dir, double min, double max
     if (dir == 0.0) return min < org && org < max;
     const double at_min = (min - org) / dir, at_max = (max - org) / dir;
     const double enter = at_min < at_max ? at_min : at_max, leave = at_min < at_max ? at_max : at_min;
-    const enum shape_part backward = dir < 0.0; /* selects without a branch */
-    in->enter.part = enter > in->enter.t ? face + backward : in->enter.part;
+    const int backward = dir < 0.0; /* selects without a branch, as all of this does */
+    in->enter.part = enter > in->enter.t ? (enum shape_part)((int)face + backward) : in->enter.part;
     in->enter.t = enter > in->enter.t ? enter : in->enter.t;
-    in->leave.part = leave < in->leave.t ? face + 1 - backward : in->leave.part;
+    in->leave.part = leave < in->leave.t ? (enum shape_part)((int)face + 1 - backward) : in->leave.part;
     in->leave.t = leave < in->leave.t ? leave : in->leave.t;
     return in->enter.t < in->leave.t;
 }
@@ -83,8 +83,6 @@ static inline struct chord chord_between(const struct chord *box, double low, do
                   high < box->leave.t ? SHAPE_SIDE : box->leave.part},
     };
 }
-
-static inline bool chord_is_empty(const struct chord *c) { return !(c->enter.t < c->leave.t); }
 
 static inline int add_chord(struct chord c, struct crossing *out, int count) {
     if (!(c.enter.t < c.leave.t)) return count;

@@ -1,5 +1,6 @@
 /* What a ray meets: crossings, surfaces, normals and bounds of the primitives. Pure functions; no
- * state, no allocation. Rays are in world space, and t is in multiples of the ray's direction. */
+ * state, no allocation. Rays are in world space, and t is in multiples of the ray's direction, which
+ * need not be unit, but long and short enough (1e-100 .. 1e100) for its square to be a number. */
 #ifndef MONGE_SHAPE_SHAPE_H
 #define MONGE_SHAPE_SHAPE_H
 
@@ -50,6 +51,10 @@ bool shape_is_solid(const struct primitives *p, primitive_ref ref);
 
 /* Whether a world-space point is inside a solid; its surface is not. False for what is not solid. */
 bool shape_contains(const struct primitives *p, primitive_ref ref, vec3 point);
+
+/* The largest dot product of a point of the primitive with `direction` (world space, any length):
+ * how far it reaches that way, to rounding. Infinite where the primitive is, or may be. */
+double shape_support(const struct primitives *p, primitive_ref ref, vec3 direction);
 
 /* A world-space box that holds the primitive, rounded outwards; infinite where the primitive is. */
 box3 shape_bounds(const struct primitives *p, primitive_ref ref);

@@ -40,7 +40,8 @@ static double random_coordinate(double size, bool grid) {
 }
 
 static vec3 random_vec3(double size, bool grid) {
-    return (vec3){random_coordinate(size, grid), random_coordinate(size, grid), random_coordinate(size, grid)};
+    return (vec3){random_coordinate(size, grid), random_coordinate(size, grid),
+                  random_coordinate(size, grid)};
 }
 
 /* ---- Scenes ---- */
@@ -106,7 +107,8 @@ static affine random_map(double size, bool grid) {
     const affine place = affine_translate(random_vec3(size, grid));
     if (grid) return affine_compose(place, affine_scale(vec3_all(size / 4.0)));
     const affine turn = affine_rotate((vec3){random_in(-1, 1), random_in(-1, 1), 1.5}, random_in(0, 360));
-    const vec3 scale = {size * random_in(0.02, 0.3), size * random_in(0.02, 0.3), size * random_in(-0.3, -0.02)};
+    const vec3 scale = {size * random_in(0.02, 0.3), size * random_in(0.02, 0.3),
+                        size * random_in(-0.3, -0.02)};
     return affine_compose(place, affine_compose(turn, affine_scale(scale)));
 }
 
@@ -126,9 +128,7 @@ static void add_random(struct primitives *p, double size, bool grid) {
     case 5:
     case 6:
     case 7: add_quadric(p, &forms[random_below(FORM_COUNT)], random_map(size, grid)); break;
-    default:
-        add_sphere(p, random_vec3(size, grid), grid ? size / 4.0 : size * random_in(0.01, 0.2));
-        break;
+    default: add_sphere(p, random_vec3(size, grid), grid ? size / 4.0 : size * random_in(0.01, 0.2)); break;
     }
 }
 
@@ -138,7 +138,8 @@ static ray random_ray(double size, bool grid) {
     ray r = {random_vec3(size * away, grid), random_vec3(1.0, grid)};
     if (away > 1.0) r.dir = vec3_sub(random_vec3(size, grid), r.org);
     if (random_below(4) == 0) { /* along an axis, with zeros of either sign */
-        r.dir = (vec3){copysign(0.0, random_in(-1, 1)), copysign(0.0, random_in(-1, 1)), copysign(0.0, random_in(-1, 1))};
+        r.dir = (vec3){copysign(0.0, random_in(-1, 1)), copysign(0.0, random_in(-1, 1)),
+                       copysign(0.0, random_in(-1, 1))};
         double *const axes[] = {&r.dir.x, &r.dir.y, &r.dir.z};
         double *const places[] = {&r.org.x, &r.org.y, &r.org.z};
         const uint32_t along = random_below(3);
@@ -174,9 +175,9 @@ static bool check_ray(const struct scene *s, ray r, double t_min, double t_max) 
     const bool hit = oracle_nearest(&s->p, r, t_min, t_max, &want);
     if (accel_nearest(s->accel, r, t_min, t_max, &found) != hit || found.number != want.number ||
         found.crossing.t != want.crossing.t || found.crossing.part != want.crossing.part)
-        fail_msg("ray %a %a %a, %a %a %a in %a .. %a: found %u at %a, not %u at %a", r.org.x, r.org.y, r.org.z,
-                 r.dir.x, r.dir.y, r.dir.z, t_min, t_max, found.number, found.crossing.t, want.number,
-                 want.crossing.t);
+        fail_msg("ray %a %a %a, %a %a %a in %a .. %a: found %u at %a, not %u at %a", r.org.x, r.org.y,
+                 r.org.z, r.dir.x, r.dir.y, r.dir.z, t_min, t_max, found.number, found.crossing.t,
+                 want.number, want.crossing.t);
     if (accel_any(s->accel, r, t_min, t_max) != oracle_any(&s->p, r, t_min, t_max))
         fail_msg("any hit: ray %a %a %a, %a %a %a in %a .. %a", r.org.x, r.org.y, r.org.z, r.dir.x, r.dir.y,
                  r.dir.z, t_min, t_max);
@@ -382,7 +383,8 @@ static void ties(void **state) {
         for (int i = 0; i < 61; i++) {
             add_sphere(&s.p, (vec3){3, 0, 0}, 1.0);
             add_quadric(&s.p, &forms[CYLINDER], map);
-            add_flat(&s.p, seed % 3 ? FLAT_SQUARE : FLAT_PLANE, affine_compose(affine_translate((vec3){0, 3, 0}), map));
+            add_flat(&s.p, seed % 3 ? FLAT_SQUARE : FLAT_PLANE,
+                     affine_compose(affine_translate((vec3){0, 3, 0}), map));
         }
         shuffle(&s.p);
         scene_build(&s);
@@ -404,7 +406,8 @@ static void touching_squares(void **state) {
     random_begin(3);
     scene_begin(&s, 200);
     for (int layer = 0; layer < 2; layer++)
-        for (int i = 0; i < 100; i++) add_flat(&s.p, FLAT_SQUARE, affine_translate((vec3){i % 10, i / 10, 0.1 * layer}));
+        for (int i = 0; i < 100; i++)
+            add_flat(&s.p, FLAT_SQUARE, affine_translate((vec3){i % 10, i / 10, 0.1 * layer}));
     shuffle(&s.p);
     scene_build(&s);
     int hits = 0;
@@ -413,7 +416,8 @@ static void touching_squares(void **state) {
             const vec3 target = {-0.5 + x / 4.0, -0.5 + y / 4.0, 0.0};
             hits += check_ray(&s, (ray){{target.x, target.y, 7}, {0, -0.0, -1}}, 0.0, INFINITY);
             hits += check_ray(&s, (ray){{target.x, target.y, 0}, {0, 1, 0}}, 0.0, INFINITY);
-            hits += check_ray(&s, (ray){{1e5, 3e4, 1e5}, vec3_sub(target, (vec3){1e5, 3e4, 1e5})}, 0.0, INFINITY);
+            hits +=
+                check_ray(&s, (ray){{1e5, 3e4, 1e5}, vec3_sub(target, (vec3){1e5, 3e4, 1e5})}, 0.0, INFINITY);
         }
     }
     assert_true(hits > 1000);
@@ -459,7 +463,8 @@ static void huge_and_tiny(void **state) {
         struct scene s;
         random_begin(i);
         scene_begin(&s, 200);
-        for (int k = 0; k < 200; k++) add_sphere(&s.p, random_vec3(sizes[i], false), sizes[i] * random_in(0.01, 0.2));
+        for (int k = 0; k < 200; k++)
+            add_sphere(&s.p, random_vec3(sizes[i], false), sizes[i] * random_in(0.01, 0.2));
         scene_build(&s);
         check_tree(&s, 200 - s.accel->unbounded_count);
         check_random_rays(&s, sizes[i], false, 100, sizes[i] < 1e-100 || sizes[i] > 1e100 ? 0 : 20);
@@ -478,7 +483,8 @@ static void same_tree_again(void **state) {
     scene_build(&s);
     assert_int_equal(first->node_count, s.accel->node_count);
     assert_memory_equal(first->nodes, s.accel->nodes, first->node_count * sizeof *first->nodes);
-    assert_memory_equal(first->refs, s.accel->refs, (s.p.count - first->unbounded_count) * sizeof *first->refs);
+    assert_memory_equal(first->refs, s.accel->refs,
+                        (s.p.count - first->unbounded_count) * sizeof *first->refs);
     scene_end(&s);
 }
 
@@ -504,8 +510,9 @@ static void arena_that_is_full(void **state) {
 
 int main(void) {
     static struct mix mixes[] = {
-        {"few", 7, 2.0, false},         {"many", 400, 5.0, false},           {"few on a grid", 9, 2.0, true},
-        {"many on a grid", 300, 4.0, true}, {"many, tiny", 200, 1e-4, false}, {"many, huge", 200, 1e6, false},
+        {"few", 7, 2.0, false},           {"many", 400, 5.0, false},
+        {"few on a grid", 9, 2.0, true},  {"many on a grid", 300, 4.0, true},
+        {"many, tiny", 200, 1e-4, false}, {"many, huge", 200, 1e6, false},
     };
     struct CMUnitTest tests[64] = {
         cmocka_unit_test(nothing),

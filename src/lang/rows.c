@@ -1,0 +1,115 @@
+/* Rows of numbers: points, directions, sizes, matrices. */
+#include <string.h>
+
+#include "lang/checker.h"
+
+typedef bool check_item(struct checker *, const struct grammar_key *, const struct node *, double *);
+
+static bool all_scalars(const struct node *n) {
+    for (const struct node *item = n->first; item; item = item->next)
+        if (node_resolve(item)->kind != NODE_SCALAR) return false;
+    return true;
+}
+
+static void help_missing(struct checker *ck, struct diagnostic *d, uint32_t found, int wanted, const char *const names[3]) {
+    if (found == 0 || found >= (uint32_t)wanted) return;
+    if (wanted - (int)found == 1) diag_help(ck->diag, d, "the %s number, %s, is missing", wanted == 3 ? "third" : "second", names[wanted - 1]);
+    else diag_help(ck->diag, d, "the second and third numbers, %s and %s, are missing", names[1], names[2]);
+}
+
+/* A mapping {x: 1, y: 2, z: 3}, or a text like `1, 2, 3` or `640x480`. */
+static void help_other_form(struct checker *ck, struct diagnostic *d, const struct node *n, int count, const char *const names[3]) {
+    if (n->kind == NODE_MAPPING && n->first && node_resolve(n->first)->kind == NODE_SCALAR && strcmp(node_resolve(n->first)->text, names[0]) == 0)
+        diag_help(ck->diag, d, "without the names: [%s, %s%s%s]", names[0], names[1], count == 3 ? ", " : "", count == 3 ? names[2] : "");
+    if (n->kind != NODE_SCALAR || n->count > 40) return;
+    const char *const between = " ,;x*()[]";
+    const char *all = "", *c = n->text + strspn(n->text, between);
+    int found = 0;
+    for (; *c; found++) {
+        const size_t length = strcspn(c, between);
+        const char *item = arena_text(ck->arena, c, length);
+        if (!scalar_is_number(item)) return;
+        all = arena_format(ck->arena, "%s%s%s", all, found ? ", " : "", item);
+        c += length;
+        c += strspn(c, between);
+    }
+    if (found == count) diag_help(ck->diag, d, "write [%s]", all);
+    else if (n->text[0] == '(') diag_help(ck->diag, d, "a list stands in [ ]");
+}
+
+/* Exactly `count` numbers of a list, checked one by one with `check`. */
+static bool check_row(struct checker *ck, const struct grammar_key *key, const struct node *node, const char *form, int count,
+                      const char *const names[3], check_item *check, double *out) {
+    const struct node *n = node_resolve(node);
+    if (n->kind != NODE_SEQUENCE) {
+        struct diagnostic *d = diag_error(ck->diag, node->span, "`%s`: expected %s, found %s", key->name, form, found_text(ck, node));
+        if (names && !diag_full(ck->diag)) help_other_form(ck, d, n, count, names);
+        return false;
+    }
+    if (n->count != (uint32_t)count) {
+        const bool numbers = n->count > 0 && all_scalars(n);
+        struct diagnostic *d = numbers ? diag_error(ck->diag, node->span, "`%s`: expected %s, found %u number%s", key->name, form,
+                                                    (unsigned)n->count, n->count == 1 ? "" : "s")
+                                       : diag_error(ck->diag, node->span, "`%s`: expected %s, found %s", key->name, form, found_text(ck, node));
+        if (numbers && names) help_missing(ck, d, n->count, count, names);
+        else if (!numbers && n->count == 1) diag_help(ck->diag, d, "one pair of brackets is enough");
+        return false;
+    }
+    bool ok = true;
+    int i = 0;
+    for (const struct node *item = n->first; item; item = item->next, i++) ok &= check(ck, key, item, &out[i]);
+    return ok;
+}
+
+bool check_vector(struct checker *ck, const struct grammar_key *key, const struct node *node, vec3 *out) {
+    static const char *const names[3] = {"x", "y", "z"};
+    double v[3];
+    if (key->type == GRAMMAR_FACTORS && node_resolve(node)->kind == NODE_SCALAR) {
+        if (!check_number(ck, key, node, &v[0])) return false;
+        *out = vec3_all(v[0]);
+        return true;
+    }
+    const char *form = key->type == GRAMMAR_FACTORS ? "a number or [x, y, z]" : "[x, y, z]";
+    if (!check_row(ck, key, node, form, 3, names, check_number, v)) return false;
+    if (key->type == GRAMMAR_DIRECTION && v[0] == 0.0 && v[1] == 0.0 && v[2] == 0.0) {
+        diag_help(ck->diag, diag_error(ck->diag, node->span, "`%s`: [0, 0, 0] is no direction", key->name),
+                  "any other vector will do, of any length");
+        return false;
+    }
+    *out = (vec3){v[0], v[1], v[2]};
+    return true;
+}
+
+bool check_size(struct checker *ck, const struct grammar_key *key, const struct node *node, vec3 *out) {
+    static const char *const names[3] = {"width", "height"};
+    double v[2];
+    if (!check_row(ck, key, node, "[width, height]", 2, names, check_integer, v)) return false;
+    *out = (vec3){v[0], v[1], 0};
+    return true;
+}
+
+bool check_matrix(struct checker *ck, const struct grammar_key *key, const struct node *node, const affine **out) {
+    const struct node *n = node_resolve(node);
+    double rows[4][4] = {{0}, {0}, {0}, {0, 0, 0, 1}};
+    if (n->kind != NODE_SEQUENCE || (n->count != 3 && n->count != 4) || all_scalars(n)) {
+        struct diagnostic *d = diag_error(ck->diag, node->span, "`%s`: expected three rows of four numbers, found %s",
+                                          key->name, found_text(ck, node));
+        diag_help(ck->diag, d, "as in [[1, 0, 0, 5], [0, 1, 0, 0], [0, 0, 1, 0]]");
+        return false;
+    }
+    bool ok = true;
+    int i = 0;
+    for (const struct node *row = n->first; row; row = row->next)
+        ok &= check_row(ck, key, row, "four numbers in a row", 4, NULL, check_number, rows[i++]);
+    if (!ok) return false;
+    if (rows[3][0] != 0 || rows[3][1] != 0 || rows[3][2] != 0 || rows[3][3] != 1) {
+        const bool columns = rows[0][3] == 0 && rows[1][3] == 0 && rows[2][3] == 0 && rows[3][3] == 1;
+        struct diagnostic *d = diag_error(ck->diag, node->span, "`%s`: the fourth row of an affine map is [0, 0, 0, 1]", key->name);
+        if (columns) diag_help(ck->diag, d, "the translation is the last column here: turn rows into columns");
+        return false;
+    }
+    affine *map = arena_alloc(ck->arena, sizeof *map);
+    memcpy(map->m, rows, sizeof map->m);
+    *out = map;
+    return true;
+}

@@ -1,0 +1,88 @@
+#!/bin/sh
+# Renders every scene of scenes/report/ and compares its pixels with tests/golden/NAME.png: they must be
+# equal. Then renders each small with 1, 2 and 5 threads, and in four regions: again the same pixels.
+#   tests/goldens.sh [PROGRAM] [--update]
+# The new pictures stay in goldens/ beside the program; --update makes them the goldens. The golden of
+# final.yaml has the scene's own size: it is the README's picture too.
+set -u
+cd "$(dirname "$0")/.." || exit 2
+program=build/monge update=''
+for word; do
+    case $word in
+    --update) update=1 ;;
+    -*) echo "usage: tests/goldens.sh [PROGRAM] [--update]" >&2; exit 2 ;;
+    *) program=$word ;;
+    esac
+done
+[ -x "$program" ] || { echo "goldens: no program $program" >&2; exit 2; }
+case $program in /*) ;; *) program=./$program ;; esac
+pictures=$(dirname "$program")/goldens
+small=$pictures/small
+rm -rf "$pictures"
+mkdir -p "$small" || exit 2
+
+# shellcheck disable=SC2046
+${CC:-cc} -O1 -o "$pictures/compare" tests/compare.c $(pkg-config --cflags --libs libpng 2>/dev/null || echo -lpng) || exit 2
+
+passed=0 failed=0
+# check SCENE WHAT COMMAND...: a test, passed when the command succeeds; else what it says is shown.
+check() {
+    scene=$1 what=$2
+    shift 2
+    if why=$("$@" 2>&1); then
+        passed=$((passed + 1))
+    else
+        failed=$((failed + 1))
+        echo "FAILED $scene: $what: $why"
+    fi
+}
+
+render() { "$program" render --quiet --progress never "$@"; }
+
+# $size is none or two words.
+# shellcheck disable=SC2086
+golden() {
+    render "$scene" -o "$pictures/$name.png" $size || return
+    [ -z "$update" ] || cp "$pictures/$name.png" "tests/golden/$name.png" || return
+    [ -f "tests/golden/$name.png" ] || { echo "no golden tests/golden/$name.png"; return 1; }
+    "$pictures/compare" "tests/golden/$name.png" "$pictures/$name.png"
+}
+
+threads() {
+    for count in 1 2 5; do
+        render "$scene" -o "$small/$name-$count.png" --size 120x90 --samples 2 --threads $count || return
+        cmp "$small/$name-1.png" "$small/$name-$count.png" || return
+    done
+}
+
+# The picture's parts, cut off the tiles' borders.
+regions() {
+    for part in 0,0,57,41 57,0,63,41 0,41,57,49 57,41,63,49; do
+        x=${part%%,*} y=${part#*,} y=${y%%,*}
+        render "$scene" -o "$small/$name-part.png" --size 120x90 --samples 2 --region $part || return
+        "$pictures/compare" "$small/$name-1.png" "$small/$name-part.png" "$x" "$y" || return
+    done
+}
+
+for file in scenes/report/*.yaml; do
+    name=$(basename "$file" .yaml)
+    # The repository should not swell: most goldens are half the size of their scene.
+    case $name in
+    view1 | view2 | final) size='' ;;
+    figure1) size='--size 320x240' ;;
+    king) size='--size 270x360' ;;
+    *) size='--size 360x240' ;;
+    esac
+    scene=$file
+    check "$file" 'the golden picture' golden
+    check "$file" '1, 2 and 5 threads' threads
+    check "$file" 'four regions' regions
+done
+
+for picture in tests/golden/*.png; do
+    name=$(basename "$picture" .png)
+    [ -f "scenes/report/$name.yaml" ] || { echo "FAILED $picture has no scene"; failed=$((failed + 1)); }
+done
+[ "$passed" -gt 0 ] || [ "$failed" -gt 0 ] || { echo "FAILED: no scenes found"; failed=1; }
+echo "goldens: $passed passed, $failed failed"
+[ "$failed" -eq 0 ]

@@ -1,0 +1,127 @@
+/* Against long double functions, and exact where the exact answer is a double. */
+#include "base/elementary.h"
+#include "near.h"
+
+/* The distance in units of the last place of the double that is nearest to the truth. */
+static double error_ulp(double got, long double want) {
+    const double nearest = (double)want, ulp = nextafter(fabs(nearest), INFINITY) - fabs(nearest);
+    return (double)(fabsl((long double)got - want) / ulp);
+}
+
+static void assert_ulp(double got, long double want, double most, const char *what, double x) {
+    if (!(error_ulp(got, want) <= most)) fail_msg("%s(%.17g): got %.17g, want %.17Lg", what, x, got, want);
+}
+
+/* Reduced exactly before pi comes in. */
+static long double sin_deg_long(double x) {
+    const long double pi = 3.14159265358979323846264338327950288L;
+    const long double turn = fmodl(x, 360.0L), quarter = floorl(turn / 90.0L + 0.5L), rest = (turn - 90.0L * quarter) * pi / 180.0L;
+    switch ((int)quarter & 3) {
+    case 0: return sinl(rest);
+    case 1: return cosl(rest);
+    case 2: return -sinl(rest);
+    default: return -cosl(rest);
+    }
+}
+
+static long double cos_deg_long(double x) {
+    const long double pi = 3.14159265358979323846264338327950288L;
+    const long double turn = fmodl(x, 360.0L), quarter = floorl(turn / 90.0L + 0.5L), rest = (turn - 90.0L * quarter) * pi / 180.0L;
+    switch ((int)quarter & 3) {
+    case 0: return cosl(rest);
+    case 1: return -sinl(rest);
+    case 2: return -cosl(rest);
+    default: return sinl(rest);
+    }
+}
+
+static double random_angle(struct random *r) {
+    static const double ranges[] = {45, 90, 360, 1e4, 1e-3, 1e-12, 1e15};
+    return random_between(r, -1, 1) * ranges[random_below(r, COUNT(ranges))];
+}
+
+enum { RANDOM_ANGLES = 300000 };
+
+static void sine_and_cosine(void **state) {
+    (void)state;
+    struct random r = random_begin();
+    for (int i = 0; i < RANDOM_ANGLES; i++) {
+        const double x = random_angle(&r);
+        assert_ulp(elementary_sin_deg(x), sin_deg_long(x), 1.5, "sin", x);
+        assert_ulp(elementary_cos_deg(x), cos_deg_long(x), 1.5, "cos", x);
+    }
+}
+
+static void tangent(void **state) {
+    (void)state;
+    struct random r = random_begin();
+    for (int i = 0; i < RANDOM_ANGLES; i++) {
+        const double x = random_angle(&r);
+        if (elementary_cos_deg(x) == 0) continue;
+        assert_ulp(elementary_tan_deg(x), sin_deg_long(x) / cos_deg_long(x), 3.5, "tan", x);
+    }
+}
+
+static void power(void **state) {
+    (void)state;
+    struct random r = random_begin();
+    for (int i = 0; i < RANDOM_ANGLES; i++) {
+        const double x = random_between(&r, 0, i & 1 ? 1 : 100), y = random_between(&r, 0, i & 2 ? 3 : 200);
+        const long double want = powl(x, y);
+        if (want > 1e-300L && want < 1e300L) assert_ulp(elementary_pow(x, y), want, 1, "pow", x);
+    }
+}
+
+static struct exact {
+    const char *name;
+    double angle_deg, sine, cosine;
+} exacts[] = {
+    {"0", 0, 0, 1},       {"90", 90, 1, 0},      {"180", 180, 0, -1},   {"270", 270, -1, 0},  {"360", 360, 0, 1},
+    {"-90", -90, -1, 0},  {"-180", -180, 0, -1}, {"450", 450, 1, 0},    {"-270", -270, 1, 0}, {"1e15 turns of 360", 360e15, 0, 1},
+    {"30", 30, 0.5, NAN}, {"150", 150, 0.5, NAN}, {"210", 210, -0.5, NAN}, {"330", 330, -0.5, NAN}, {"-30", -30, -0.5, NAN},
+    {"390", 390, 0.5, NAN}, {"60", 60, NAN, 0.5}, {"120", 120, NAN, -0.5}, {"240", 240, NAN, -0.5}, {"300", 300, NAN, 0.5},
+    {"-60", -60, NAN, 0.5}, {"420", 420, NAN, 0.5},
+};
+
+static void check_exact(void **state) {
+    const struct exact *row = *state;
+    if (!isnan(row->sine)) assert_true(elementary_sin_deg(row->angle_deg) == row->sine);
+    if (!isnan(row->cosine)) assert_true(elementary_cos_deg(row->angle_deg) == row->cosine);
+}
+
+static void symmetries_hold_exactly(void **state) {
+    (void)state;
+    struct random r = random_begin();
+    for (int i = 0; i < 10000; i++) {
+        const double x = random_between(&r, 0, 90);
+        assert_true(elementary_sin_deg(-x) == -elementary_sin_deg(x));
+        assert_true(elementary_cos_deg(-x) == elementary_cos_deg(x));
+        assert_true(elementary_sin_deg(x + 360) == elementary_sin_deg((x + 360) - 360));
+    }
+}
+
+static void tangents_of_45(void **state) {
+    (void)state;
+    assert_near(elementary_tan_deg(45), 1, 3e-16, "tan 45");
+    assert_true(elementary_tan_deg(0) == 0);
+    assert_true(elementary_tan_deg(180) == 0);
+}
+
+static void powers_at_the_ends(void **state) {
+    (void)state;
+    assert_true(elementary_pow(0, 0) == 1);
+    assert_true(elementary_pow(0, 2) == 0);
+    assert_true(elementary_pow(1, 1e6) == 1);
+    assert_true(elementary_pow(0.5, 1e6) == 0);
+    assert_true(elementary_pow(2, 10) == 1024);
+}
+
+int main(void) {
+    struct CMUnitTest tests[COUNT(exacts)];
+    for (size_t i = 0; i < COUNT(exacts); i++) tests[i] = (struct CMUnitTest){exacts[i].name, check_exact, NULL, NULL, &exacts[i]};
+    const struct CMUnitTest others[] = {
+        cmocka_unit_test(sine_and_cosine), cmocka_unit_test(tangent),        cmocka_unit_test(power),
+        cmocka_unit_test(symmetries_hold_exactly), cmocka_unit_test(tangents_of_45), cmocka_unit_test(powers_at_the_ends),
+    };
+    return cmocka_run_group_tests_name("exact", tests, NULL, NULL) + cmocka_run_group_tests_name("elementary", others, NULL, NULL);
+}
