@@ -75,6 +75,7 @@ demo: deps ## render every scene of scenes/report/ to out/
 	+@$(SUBMAKE) build-program
 	@mkdir -p out
 	$(BUILD)/monge render -o out/ scenes/report/*.yaml
+	$(BUILD)/monge render -o out/ --samples 16 scenes/report/final.yaml
 	@echo "The pictures are in $(CURDIR)/out"
 
 test: deps ## run all tests; T=name runs tests/unit/test_name.c or tests/name.sh alone

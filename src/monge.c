@@ -118,12 +118,20 @@ void monge_scene_free(struct monge_scene *scene) {
 
 size_t monge_scene_primitives(const struct monge_scene *scene) { return scene->scene.primitives.count; }
 
+static struct accel *scene_accel(struct monge_scene *scene) {
+    const struct scene *s = &scene->scene;
+    bool *clear = arena_array(&scene->arena, s->primitives.count, sizeof *clear);
+    for (uint32_t i = 0; i < s->primitives.count; i++)
+        clear[i] = vec3_max_abs(s->materials[s->primitives.info[i].material].refraction) > 0.0;
+    return accel_build(&scene->arena, &s->primitives, clear);
+}
+
 bool monge_scene_prepare(struct monge_scene *scene) {
     jmp_buf full;
     if (scene->accel) return true;
     const struct arena_mark before = arena_mark(&scene->arena);
     scene->arena.on_full = &full;
-    if (setjmp(full) == 0) scene->accel = accel_build(&scene->arena, &scene->scene.primitives);
+    if (setjmp(full) == 0) scene->accel = scene_accel(scene);
     else arena_release(&scene->arena, before);
     scene->arena.on_full = NULL;
     return scene->accel != NULL;

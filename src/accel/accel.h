@@ -1,4 +1,4 @@
-/* Finds what a ray hits among many primitives: a bounding volume hierarchy behind two questions,
+/* Finds what a ray hits among many primitives: bounding volume hierarchies behind the questions
  * nearest hit and any hit. */
 #ifndef MONGE_ACCEL_ACCEL_H
 #define MONGE_ACCEL_ACCEL_H
@@ -8,9 +8,10 @@
 
 struct accel;
 
-/* Builds the hierarchy over all primitives, which must outlive it; it lives in `arena`. The same
- * tree for the same primitives, always. */
-struct accel *accel_build(struct arena *arena, const struct primitives *primitives);
+/* Builds hierarchies over the primitives, which must outlive them; they live in `arena`. The same
+ * trees for the same primitives, always. `clear` tells of each number whether the primitive lets light
+ * through, and is read here alone; NULL: none does. */
+struct accel *accel_build(struct arena *arena, const struct primitives *primitives, const bool *clear);
 
 struct hit {
     uint32_t number; /* of the primitive */
@@ -22,9 +23,12 @@ struct hit {
  * where there is none. Thread-safe, allocates nothing. */
 bool accel_nearest(const struct accel *accel, ray r, double t_min, double t_max, struct hit *hit);
 
-/* Whether anything is hit in t_min < t < t_max: the end is left out, so that a ray to a light stops
- * before it. Thread-safe, allocates nothing. */
+/* Whether anything that is not clear is hit in t_min < t < t_max: the end is left out, so that a ray
+ * to a light stops before it. Thread-safe, allocates nothing. */
 bool accel_any(const struct accel *accel, ray r, double t_min, double t_max);
+
+/* As accel_nearest, of the clear primitives alone. */
+bool accel_nearest_clear(const struct accel *accel, ray r, double t_min, double t_max, struct hit *hit);
 
 /* The box around all bounded primitives; empty where there are none. World space. */
 box3 accel_bounds(const struct accel *accel);

@@ -95,10 +95,20 @@ static bool bounds_are_finite(const struct bounds *b) {
     return true;
 }
 
-/* Sorts the primitives into items and the unbounded. */
-static void collect(struct builder *b, const struct primitives *primitives) {
+/* The primitives that a tree is built of: those with clear[number] == which, or all if clear is NULL
+ * and which is false. */
+struct choice {
+    const struct primitives *primitives;
+    const bool *clear;
+    bool which;
+};
+
+/* Sorts the chosen primitives into items and the unbounded. */
+static void collect(struct builder *b, const struct choice *choice) {
+    const struct primitives *primitives = choice->primitives;
     b->bounds = BOX3_EMPTY;
     for (uint32_t i = 0; i < primitives->count; i++) {
+        if ((choice->clear && choice->clear[i]) != choice->which) continue;
         const primitive_ref ref = primitives->info[i].ref;
         const box3 box = shape_bounds(primitives, ref);
         const struct bounds around = bounds_around(box);
@@ -286,11 +296,11 @@ static bool build_node(struct builder *b, size_t index, uint32_t first, uint32_t
 }
 
 /* False: memory is out. */
-static bool build(struct builder *b, const struct primitives *primitives) {
-    b->items = malloc(((size_t)primitives->count + 1) * sizeof *b->items);
-    b->unbounded = malloc(((size_t)primitives->count + 1) * sizeof *b->unbounded);
+static bool build(struct builder *b, const struct choice *choice) {
+    b->items = malloc(((size_t)choice->primitives->count + 1) * sizeof *b->items);
+    b->unbounded = malloc(((size_t)choice->primitives->count + 1) * sizeof *b->unbounded);
     if (!b->items || !b->unbounded) return false;
-    collect(b, primitives);
+    collect(b, choice);
     if (!b->item_count) return true;
     b->node_room = 2 + (size_t)b->item_count / 2;
     b->nodes = malloc(b->node_room * sizeof *b->nodes);
@@ -314,15 +324,14 @@ static void *arena_try(struct arena *arena, size_t size) {
 }
 
 /* Copies what was built into the arena, at its exact size. NULL: the arena is full. */
-static struct accel *settle(const struct builder *b, struct arena *arena,
-                            const struct primitives *primitives) {
+static struct bvh *settle(const struct builder *b, struct arena *arena) {
     enum { CACHE_LINE = 64 };
     const size_t refs = (size_t)b->item_count + b->unbounded_count;
     unsigned char *memory = arena_try(arena, CACHE_LINE + b->node_count * sizeof *b->nodes +
-                                                 refs * sizeof(primitive_ref) + sizeof(struct accel));
+                                                 refs * sizeof(primitive_ref) + sizeof(struct bvh));
     if (!memory) return NULL;
-    struct accel *accel = (struct accel *)(void *)memory;
-    memory += sizeof *accel;
+    struct bvh *bvh = (struct bvh *)(void *)memory;
+    memory += sizeof *bvh;
     memory += (CACHE_LINE - (uintptr_t)memory % CACHE_LINE) % CACHE_LINE;
     struct bvh_node *nodes = (struct bvh_node *)(void *)memory;
     primitive_ref *bounded = (primitive_ref *)(void *)(nodes + b->node_count);
@@ -330,8 +339,7 @@ static struct accel *settle(const struct builder *b, struct arena *arena,
     if (b->node_count) memcpy(nodes, b->nodes, b->node_count * sizeof *nodes);
     for (uint32_t i = 0; i < b->item_count; i++) bounded[i] = b->items[i].ref;
     for (uint32_t i = 0; i < b->unbounded_count; i++) unbounded[i] = b->unbounded[i];
-    *accel = (struct accel){
-        .primitives = primitives,
+    *bvh = (struct bvh){
         .nodes = nodes,
         .node_count = (uint32_t)b->node_count,
         .refs = bounded,
@@ -339,16 +347,24 @@ static struct accel *settle(const struct builder *b, struct arena *arena,
         .unbounded_count = b->unbounded_count,
         .bounds = b->bounds,
     };
-    return accel;
+    return bvh;
 }
 
-struct accel *accel_build(struct arena *arena, const struct primitives *primitives) {
+static const struct bvh *bvh_build(struct arena *arena, const struct choice *choice) {
     struct builder b = {0};
-    struct accel *accel = build(&b, primitives) ? settle(&b, arena, primitives) : NULL;
+    const struct bvh *bvh = build(&b, choice) ? settle(&b, arena) : NULL;
     free(b.items);
     free(b.nodes);
     free(b.unbounded);
-    return accel ? accel : arena_alloc(arena, SIZE_MAX); /* no memory: leave as a full arena does */
+    return bvh ? bvh : arena_alloc(arena, SIZE_MAX); /* no memory: leave as a full arena does */
 }
 
-box3 accel_bounds(const struct accel *accel) { return accel->bounds; }
+struct accel *accel_build(struct arena *arena, const struct primitives *primitives, const bool *clear) {
+    struct accel *accel = arena_alloc(arena, sizeof *accel);
+    accel->primitives = primitives;
+    accel->opaque = bvh_build(arena, &(struct choice){primitives, clear, false});
+    accel->clear = bvh_build(arena, &(struct choice){primitives, clear, true});
+    return accel;
+}
+
+box3 accel_bounds(const struct accel *accel) { return box3_union(accel->opaque->bounds, accel->clear->bounds); }

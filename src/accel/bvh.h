@@ -27,14 +27,19 @@ struct bvh_node {
     uint16_t axis;   /* along which the first child comes before the second */
 };
 
-struct accel {
-    const struct primitives *primitives;
+struct bvh {
     const struct bvh_node *nodes; /* nodes[0] is the root, nodes[1] is not used */
     uint32_t node_count;          /* 0: nothing is bounded */
     const primitive_ref *refs;
     const primitive_ref *unbounded; /* tested for every ray */
     uint32_t unbounded_count;
     box3 bounds;
+};
+
+/* Every primitive is in one of the two. */
+struct accel {
+    const struct primitives *primitives;
+    const struct bvh *opaque, *clear;
 };
 
 #endif

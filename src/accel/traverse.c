@@ -14,6 +14,7 @@ struct box_ray {
 struct search {
     const struct primitives *primitives;
     ray r;
+    struct box_ray boxes; /* r again */
     double t_min;
     struct hit best;
 };
@@ -81,57 +82,68 @@ struct stack {
 
 /* The child to go to first, the other one on the stack if it is met too; NULL where none is. A box
  * that begins just at the best t is met: it may hold an equal hit of a lower number. */
-static inline const struct bvh_node *descend(const struct accel *accel, const struct bvh_node *node,
-                                             const struct box_ray *boxes, const struct search *s,
-                                             struct stack *stack) {
+static inline const struct bvh_node *descend(const struct bvh *bvh, const struct bvh_node *node,
+                                             const struct search *s, struct stack *stack) {
+    const struct box_ray *boxes = &s->boxes;
     const bool down = boxes->near_plane[node->axis] >= 3;
     const uint32_t near = node->first + down, far = node->first + !down;
     double near_enter, far_enter;
-    const bool meets_near = box_meet(&accel->nodes[near], boxes, s->t_min, s->best.crossing.t, &near_enter);
-    const bool meets_far = box_meet(&accel->nodes[far], boxes, s->t_min, s->best.crossing.t, &far_enter);
-    if (!meets_near) return meets_far ? &accel->nodes[far] : NULL;
+    const bool meets_near = box_meet(&bvh->nodes[near], boxes, s->t_min, s->best.crossing.t, &near_enter);
+    const bool meets_far = box_meet(&bvh->nodes[far], boxes, s->t_min, s->best.crossing.t, &far_enter);
+    if (!meets_near) return meets_far ? &bvh->nodes[far] : NULL;
     if (meets_far) {
         stack->at[stack->depth].node = far;
         stack->at[stack->depth++].enter = far_enter;
     }
-    return &accel->nodes[near];
+    return &bvh->nodes[near];
 }
 
-static inline const struct bvh_node *pop(const struct accel *accel, struct stack *stack, double t_best) {
+static inline const struct bvh_node *pop(const struct bvh *bvh, struct stack *stack, double t_best) {
     while (stack->depth > 0)
-        if (stack->at[--stack->depth].enter <= t_best) return &accel->nodes[stack->at[stack->depth].node];
+        if (stack->at[--stack->depth].enter <= t_best) return &bvh->nodes[stack->at[stack->depth].node];
     return NULL;
 }
 
 /* True when an any-hit search has found one; else s->best is the nearest. */
-static inline bool search_all(struct search *s, const struct accel *accel, bool any) {
-    if (search_run(s, accel->unbounded, accel->unbounded_count, any)) return true;
-    if (!accel->node_count) return false;
-    const struct box_ray boxes = box_ray_make(s->r);
+static inline bool search_all(struct search *s, const struct bvh *bvh, bool any) {
+    if (search_run(s, bvh->unbounded, bvh->unbounded_count, any)) return true;
+    if (!bvh->node_count) return false;
     struct stack stack;
     stack.depth = 0;
     double enter;
-    if (!box_meet(accel->nodes, &boxes, s->t_min, s->best.crossing.t, &enter)) return false;
-    for (const struct bvh_node *node = accel->nodes; node;) {
+    if (!box_meet(bvh->nodes, &s->boxes, s->t_min, s->best.crossing.t, &enter)) return false;
+    for (const struct bvh_node *node = bvh->nodes; node;) {
         const struct bvh_node *child = NULL;
         if (!node->count)
-            child = descend(accel, node, &boxes, s, &stack);
-        else if (search_run(s, accel->refs + node->first, node->count, any))
+            child = descend(bvh, node, s, &stack);
+        else if (search_run(s, bvh->refs + node->first, node->count, any))
             return true;
-        node = child ? child : pop(accel, &stack, s->best.crossing.t);
+        node = child ? child : pop(bvh, &stack, s->best.crossing.t);
     }
     return false;
 }
 
-bool accel_nearest(const struct accel *accel, ray r, double t_min, double t_max, struct hit *hit) {
-    struct search s = {accel->primitives, r, t_min, {UINT32_MAX, {.t = t_max}}};
-    search_all(&s, accel, false);
-    if (s.best.number == UINT32_MAX) return false;
-    *hit = s.best;
+static bool search_result(const struct search *s, struct hit *hit) {
+    if (s->best.number == UINT32_MAX) return false;
+    *hit = s->best;
     return true;
 }
 
+bool accel_nearest(const struct accel *accel, ray r, double t_min, double t_max, struct hit *hit) {
+    struct search s = {accel->primitives, r, box_ray_make(r), t_min, {UINT32_MAX, {.t = t_max}}};
+    search_all(&s, accel->opaque, false);
+    search_all(&s, accel->clear, false);
+    return search_result(&s, hit);
+}
+
+bool accel_nearest_clear(const struct accel *accel, ray r, double t_min, double t_max, struct hit *hit) {
+    if (!accel->clear->node_count && !accel->clear->unbounded_count) return false; /* most scenes */
+    struct search s = {accel->primitives, r, box_ray_make(r), t_min, {UINT32_MAX, {.t = t_max}}};
+    search_all(&s, accel->clear, false);
+    return search_result(&s, hit);
+}
+
 bool accel_any(const struct accel *accel, ray r, double t_min, double t_max) {
-    struct search s = {accel->primitives, r, t_min, {UINT32_MAX, {.t = t_max}}};
-    return search_all(&s, accel, true);
+    struct search s = {accel->primitives, r, box_ray_make(r), t_min, {UINT32_MAX, {.t = t_max}}};
+    return search_all(&s, accel->opaque, true);
 }

@@ -72,12 +72,6 @@ static void set_lights(struct arena *arena, struct rendering *rd, const struct s
     tracer->lights = points;
 }
 
-static bool any_transparent(const struct scene *scene) {
-    for (uint32_t i = 0; i < scene->material_count; i++)
-        if (vec3_max_abs(scene->materials[i].refraction) > 0.0) return true;
-    return false;
-}
-
 /* ---- Tiles ---- */
 
 static void render_pixel(const struct rendering *rd, uint32_t x, uint32_t y, uint64_t rays[MONGE_RAY_KINDS]) {
@@ -145,7 +139,7 @@ bool render_film(const struct scene *scene, const struct accel *accel, const str
         arena_free(&arena);
         return false;
     }
-    struct rendering rd = {.tracer = {.scene = scene, .accel = accel, .settings = film->settings, .any_transparent = any_transparent(scene)},
+    struct rendering rd = {.tracer = {.scene = scene, .accel = accel, .settings = film->settings},
                            .job = job, .film = film, .reporting = ATOMIC_FLAG_INIT};
     rd.view = camera_view(scene, accel_bounds(accel), film->settings.width, film->settings.height);
     rd.samples = sample_places(&arena, film->settings.samples);

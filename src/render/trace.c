@@ -30,10 +30,10 @@ static vec3 transmittance(const struct path *path, vec3 from, vec3 to) {
     const ray r = {from, vec3_sub(to, from)};
     const double before_one = 1.0 - 0x1p-53;
     path->rays[MONGE_RAY_SHADOW]++;
-    if (!tracer->any_transparent) return vec3_all(accel_any(tracer->accel, r, 0.0, 1.0) ? 0.0 : 1.0);
+    if (accel_any(tracer->accel, r, 0.0, 1.0)) return vec3_all(0.0);
     vec3 through = vec3_all(1.0);
     struct hit hit = {.crossing = {.t = 0.0}};
-    while (accel_nearest(tracer->accel, r, hit.crossing.t, before_one, &hit)) {
+    while (accel_nearest_clear(tracer->accel, r, hit.crossing.t, before_one, &hit)) {
         through = vec3_mul(through, scene->materials[scene->primitives.info[hit.number].material].refraction);
         if (vec3_max_abs(through) < least_weight) return vec3_all(0.0);
     }
@@ -51,6 +51,12 @@ struct meeting {
 /* The surface's point, moved by its error to the side that `normal` points to. */
 static vec3 leave_point(const struct meeting *m, vec3 normal) { return vec3_madd(m->surface.point, m->surface.error, normal); }
 
+/* cosine to the power of the exponent, for a cosine of 0..1. Nothing where that is less than
+ * exp(-40), by cosine^n <= exp(-n (1 - cosine)): most of a surface is far from its highlight. */
+static double highlight_power(double cosine, double exponent) {
+    return exponent * (1.0 - cosine) < 40.0 ? elementary_pow(cosine, exponent) : 0.0;
+}
+
 /* The light that one point light adds at a meeting. */
 static vec3 shade_light(const struct path *path, const struct meeting *m, vec3 normal, const struct light *light) {
     const struct tracer *tracer = path->tracer;
@@ -60,7 +66,7 @@ static vec3 shade_light(const struct path *path, const struct meeting *m, vec3 n
     if (tracer->settings.shading == MONGE_SHADING_PHONG && (cosine > 0.0 || tracer->scene->highlight_always)) {
         const vec3 mirrored = vec3_sub(vec3_scale(normal, 2.0 * cosine), to_light);
         const double highlight = -vec3_dot(mirrored, m->dir);
-        if (highlight > 0.0) color = vec3_madd(color, elementary_pow(highlight, m->material->shininess), m->material->specular);
+        if (highlight > 0.0) color = vec3_madd(color, highlight_power(highlight, m->material->shininess), m->material->specular);
     }
     if (!(vec3_max_abs(color) > 0.0)) return color;
     color = vec3_mul(color, light->color);

@@ -13,7 +13,6 @@ struct tracer {
     const struct light *lights; /* point lights alone */
     uint32_t light_count;
     vec3 ambient;         /* the sum of the ambient lights */
-    bool any_transparent; /* some material lets light through */
 };
 
 /* The linear colour seen along the ray, whose direction need not be unit. `media` is what its origin

@@ -50,6 +50,7 @@ struct scene {
     struct arena arena;
     struct primitives p;
     struct accel *accel;
+    const bool *clear; /* by number; NULL: none */
 };
 
 static void scene_begin(struct scene *s, uint32_t room) {
@@ -151,10 +152,19 @@ static ray random_ray(double size, bool grid) {
 
 /* ---- The oracle ---- */
 
-static bool oracle_nearest(const struct primitives *p, ray r, double t_min, double t_max, struct hit *hit) {
+enum among { ALL, OPAQUE, CLEAR };
+
+static bool is_among(const struct scene *s, uint32_t number, enum among among) {
+    const bool clear = s->clear && s->clear[number];
+    return among == ALL || clear == (among == CLEAR);
+}
+
+static bool oracle_nearest(const struct scene *s, enum among among, ray r, double t_min, double t_max, struct hit *hit) {
+    const struct primitives *p = &s->p;
     bool found = false;
     for (uint32_t i = 0; i < p->count; i++) {
         struct crossing c;
+        if (!is_among(s, i, among)) continue;
         if (!shape_first_crossing(p, p->info[i].ref, r, t_min, t_max, &c)) continue;
         if (found && !(c.t < hit->crossing.t)) continue; /* numbers rise: an equal one loses */
         *hit = (struct hit){i, c};
@@ -163,22 +173,31 @@ static bool oracle_nearest(const struct primitives *p, ray r, double t_min, doub
     return found;
 }
 
-static bool oracle_any(const struct primitives *p, ray r, double t_min, double t_max) {
+static bool oracle_any(const struct scene *s, ray r, double t_min, double t_max) {
     struct hit hit;
-    return oracle_nearest(p, r, t_min, t_max, &hit) && hit.crossing.t < t_max;
+    return oracle_nearest(s, OPAQUE, r, t_min, t_max, &hit) && hit.crossing.t < t_max;
 }
 
-/* Both questions of one ray; returns whether it hit. */
-static bool check_ray(const struct scene *s, ray r, double t_min, double t_max) {
+/* Asks for the nearest among all or the clear ones; returns whether the ray hit. */
+static bool check_nearest(const struct scene *s, enum among among, ray r, double t_min, double t_max) {
     const struct hit untouched = {77, {-5.0, SHAPE_CUT_MAX_Z}};
     struct hit want = untouched, found = untouched;
-    const bool hit = oracle_nearest(&s->p, r, t_min, t_max, &want);
-    if (accel_nearest(s->accel, r, t_min, t_max, &found) != hit || found.number != want.number ||
+    const bool hit = oracle_nearest(s, among, r, t_min, t_max, &want);
+    const bool answer = among == CLEAR ? accel_nearest_clear(s->accel, r, t_min, t_max, &found)
+                                       : accel_nearest(s->accel, r, t_min, t_max, &found);
+    if (answer != hit || found.number != want.number ||
         found.crossing.t != want.crossing.t || found.crossing.part != want.crossing.part)
         fail_msg("ray %a %a %a, %a %a %a in %a .. %a: found %u at %a, not %u at %a", r.org.x, r.org.y,
                  r.org.z, r.dir.x, r.dir.y, r.dir.z, t_min, t_max, found.number, found.crossing.t,
                  want.number, want.crossing.t);
-    if (accel_any(s->accel, r, t_min, t_max) != oracle_any(&s->p, r, t_min, t_max))
+    return hit;
+}
+
+/* All questions of one ray; returns whether it hit. */
+static bool check_ray(const struct scene *s, ray r, double t_min, double t_max) {
+    const bool hit = check_nearest(s, ALL, r, t_min, t_max);
+    if (s->clear) check_nearest(s, CLEAR, r, t_min, t_max);
+    if (accel_any(s->accel, r, t_min, t_max) != oracle_any(s, r, t_min, t_max))
         fail_msg("any hit: ray %a %a %a, %a %a %a in %a .. %a", r.org.x, r.org.y, r.org.z, r.dir.x, r.dir.y,
                  r.dir.z, t_min, t_max);
     return hit;
@@ -204,7 +223,8 @@ static void check_random_rays(const struct scene *s, double size, bool grid, int
 /* ---- The tree itself ---- */
 
 struct tree_check {
-    const struct accel *accel;
+    const struct primitives *primitives;
+    const struct bvh *bvh;
     unsigned depth;
     uint32_t nodes, refs;
     unsigned char *seen[3]; /* by kind and index */
@@ -219,13 +239,13 @@ static bool holds(const struct bvh_node *outer, const double min[3], const doubl
 static void check_leaf(struct tree_check *check, const struct bvh_node *node) {
     assert_true(node->count <= ACCEL_LEAF_SIZE);
     for (uint32_t i = node->first; i < node->first + node->count; i++) {
-        const primitive_ref ref = check->accel->refs[i];
-        const box3 box = shape_bounds(check->accel->primitives, ref);
+        const primitive_ref ref = check->bvh->refs[i];
+        const box3 box = shape_bounds(check->primitives, ref);
         unsigned char *seen = &check->seen[primitive_ref_kind(ref)][primitive_ref_index(ref)];
         const double room = 0x1p-23 * fmax(vec3_max_abs(box.min), vec3_max_abs(box.max));
         assert_true(holds(node, (double[3]){box.min.x - room, box.min.y - room, box.min.z - room},
                           (double[3]){box.max.x + room, box.max.y + room, box.max.z + room}));
-        assert_true(i == node->first || check->accel->refs[i - 1] < ref);
+        assert_true(i == node->first || check->bvh->refs[i - 1] < ref);
         assert_false(*seen);
         *seen = 1;
         check->refs++;
@@ -233,16 +253,16 @@ static void check_leaf(struct tree_check *check, const struct bvh_node *node) {
 }
 
 static void check_node(struct tree_check *check, uint32_t index, unsigned depth) {
-    const struct bvh_node *node = &check->accel->nodes[index];
+    const struct bvh_node *node = &check->bvh->nodes[index];
     check->nodes++;
     check->depth = depth > check->depth ? depth : check->depth;
-    assert_true(index < check->accel->node_count);
+    assert_true(index < check->bvh->node_count);
     if (node->count) {
         check_leaf(check, node);
         return;
     }
     for (uint32_t child = node->first; child < node->first + 2; child++) {
-        const float *b = check->accel->nodes[child].bounds;
+        const float *b = check->bvh->nodes[child].bounds;
         assert_true(holds(node, (double[3]){b[0], b[1], b[2]}, (double[3]){b[3], b[4], b[5]}));
         check_node(check, child, depth + 1);
     }
@@ -250,19 +270,20 @@ static void check_node(struct tree_check *check, uint32_t index, unsigned depth)
 
 /* Every bounded primitive in one leaf, every box around its content; returns the depth. */
 static unsigned check_tree(const struct scene *s, uint32_t bounded) {
-    struct tree_check check = {.accel = s->accel};
+    const struct bvh *bvh = s->accel->opaque;
+    struct tree_check check = {.primitives = &s->p, .bvh = bvh};
     for (int k = 0; k < 3; k++) check.seen[k] = calloc(s->p.count + 1, 1);
-    if (s->accel->node_count) check_node(&check, 0, 0);
+    if (bvh->node_count) check_node(&check, 0, 0);
     for (int k = 0; k < 3; k++) free(check.seen[k]);
     assert_int_equal(check.refs, bounded);
-    assert_int_equal(s->accel->node_count, check.nodes ? check.nodes + 1 : 0);
+    assert_int_equal(bvh->node_count, check.nodes ? check.nodes + 1 : 0);
     assert_true(check.depth <= ACCEL_MAX_DEPTH);
     return check.depth;
 }
 
 static void scene_end(struct scene *s) { arena_free(&s->arena); }
 
-static void scene_build(struct scene *s) { s->accel = accel_build(&s->arena, &s->p); }
+static void scene_build(struct scene *s) { s->accel = accel_build(&s->arena, &s->p, s->clear); }
 
 /* ---- Tests ---- */
 
@@ -282,8 +303,26 @@ static void mixed_scenes(void **state) {
         for (int i = 0; i < mix->primitives; i++) add_random(&s.p, mix->size, mix->grid);
         shuffle(&s.p);
         scene_build(&s);
-        check_tree(&s, s.p.count - s.accel->unbounded_count);
+        check_tree(&s, s.p.count - s.accel->opaque->unbounded_count);
         check_random_rays(&s, mix->size, mix->grid, 400, mix->primitives > 30 ? 100 : 0);
+        scene_end(&s);
+    }
+}
+
+/* Some of every kind let light through: they are hit, but do not stop it. */
+static void clear_and_opaque(void **state) {
+    (void)state;
+    for (uint64_t seed = 1; seed <= 12; seed++) {
+        struct scene s;
+        random_begin(seed);
+        scene_begin(&s, 1000);
+        for (int i = 0; i < 200; i++) add_random(&s.p, 4.0, seed % 2);
+        shuffle(&s.p);
+        bool *clear = arena_array(&s.arena, s.p.count, sizeof *clear);
+        for (uint32_t i = 0; i < s.p.count; i++) clear[i] = random_below(3) == 0;
+        s.clear = clear;
+        scene_build(&s);
+        check_random_rays(&s, 4.0, seed % 2, 300, 60);
         scene_end(&s);
     }
 }
@@ -335,7 +374,7 @@ static void planes_alone(void **state) {
     add_flat(&s.p, FLAT_PLANE, affine_translate((vec3){0, 0, 1}));
     scene_build(&s);
     check_tree(&s, 0);
-    assert_int_equal(s.accel->unbounded_count, 2);
+    assert_int_equal(s.accel->opaque->unbounded_count, 2);
     assert_true(check_ray(&s, (ray){{0, 0, 0}, {0, 0, 1}}, 0.0, INFINITY));
     assert_false(check_ray(&s, (ray){{0, 0, 0}, {0, 0, -1}}, 0.0, INFINITY));
     assert_true(box3_is_empty(accel_bounds(s.accel)));
@@ -388,7 +427,7 @@ static void ties(void **state) {
         }
         shuffle(&s.p);
         scene_build(&s);
-        check_tree(&s, s.p.count - s.accel->unbounded_count);
+        check_tree(&s, s.p.count - s.accel->opaque->unbounded_count);
         check_random_rays(&s, 3.0, false, 50, 0);
         const vec3 targets[] = {{3, 0, 0}, affine_column(map, 3)};
         for (int k = 0; k < 2; k++) {
@@ -466,7 +505,7 @@ static void huge_and_tiny(void **state) {
         for (int k = 0; k < 200; k++)
             add_sphere(&s.p, random_vec3(sizes[i], false), sizes[i] * random_in(0.01, 0.2));
         scene_build(&s);
-        check_tree(&s, 200 - s.accel->unbounded_count);
+        check_tree(&s, 200 - s.accel->opaque->unbounded_count);
         check_random_rays(&s, sizes[i], false, 100, sizes[i] < 1e-100 || sizes[i] > 1e100 ? 0 : 20);
         scene_end(&s);
     }
@@ -479,11 +518,12 @@ static void same_tree_again(void **state) {
     scene_begin(&s, 1000);
     for (int i = 0; i < 1000; i++) add_random(&s.p, 4.0, i % 2);
     scene_build(&s);
-    const struct accel *first = s.accel;
+    const struct bvh *first = s.accel->opaque;
     scene_build(&s);
-    assert_int_equal(first->node_count, s.accel->node_count);
-    assert_memory_equal(first->nodes, s.accel->nodes, first->node_count * sizeof *first->nodes);
-    assert_memory_equal(first->refs, s.accel->refs,
+    const struct bvh *second = s.accel->opaque;
+    assert_int_equal(first->node_count, second->node_count);
+    assert_memory_equal(first->nodes, second->nodes, first->node_count * sizeof *first->nodes);
+    assert_memory_equal(first->refs, second->refs,
                         (s.p.count - first->unbounded_count) * sizeof *first->refs);
     scene_end(&s);
 }
@@ -499,7 +539,7 @@ static void arena_that_is_full(void **state) {
     struct arena small = {.limit = 5000, .on_full = &full};
     volatile bool came_back = false;
     if (setjmp(full) == 0)
-        accel_build(&small, &s.p);
+        accel_build(&small, &s.p, NULL);
     else
         came_back = true;
     assert_true(came_back);
@@ -518,6 +558,7 @@ int main(void) {
         cmocka_unit_test(nothing),
         cmocka_unit_test(one_sphere),
         cmocka_unit_test(planes_alone),
+        cmocka_unit_test(clear_and_opaque),
         cmocka_unit_test(ten_thousand_spheres),
         cmocka_unit_test(ties),
         cmocka_unit_test(touching_squares),
@@ -527,7 +568,7 @@ int main(void) {
         cmocka_unit_test(same_tree_again),
         cmocka_unit_test(arena_that_is_full),
     };
-    size_t count = 11;
+    size_t count = 12;
     for (size_t i = 0; i < sizeof mixes / sizeof *mixes; i++)
         tests[count++] = (struct CMUnitTest){mixes[i].name, mixed_scenes, NULL, NULL, &mixes[i]};
     for (size_t i = 0; i < sizeof limit_rows / sizeof *limit_rows; i++)

@@ -116,7 +116,7 @@ static void texts_cannot_harm_a_terminal(void **state) {
     struct diagnostics diag = {0};
     struct diagnostic *d = diag_error(&diag, (struct span){&source, 3, 0, 1}, "found `%s`", "\033[2J\xc2\x9b\x7f\n\xff\xe2\x80\xa8");
     diag_help(&diag, d, "\r%s", "\xe2\x80\xae");
-    assert_printed(&diag, "a?]0;b.yaml:4:1: error: found `?[2J??????`\n      = ??\n");
+    assert_printed(&diag, "a?]0;b.yaml:4:1: error: found `?[2J?????`\n    4 | \n      | ^ ??\n");
     diag_free(&diag);
 }
 
@@ -168,7 +168,7 @@ static void fifty_are_kept_and_all_are_counted(void **state) {
     assert_true(diag.arena.total < 200000);
     diag_failure(&diag, "failures are always kept");
     char *text = printed(&diag);
-    assert_non_null(strstr(text, "king.yaml:50:1: error: e49\n      = help\n      = note\n"));
+    assert_non_null(strstr(text, "king.yaml:50:1: error: e49\n   50 | \n      | ^ help\n      = note\n"));
     assert_non_null(strstr(text, "monge: error: failures are always kept\n... and 99950 more\n"));
     assert_null(strstr(text, "e50"));
     free(text);
