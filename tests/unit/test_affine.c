@@ -229,6 +229,17 @@ static void extreme_sizes_have_inverses(void **state) {
     }
 }
 
+static void nearly_flat_is_not_flat(void **state) {
+    (void)state;
+    const double shears[] = {1e3, 1e6, 1e9, 1e11};
+    for (size_t i = 0; i < COUNT(shears); i++) {
+        affine map = AFFINE_IDENTITY, inverse;
+        map.m[0][1] = shears[i];
+        assert_true(affine_invert(map, &inverse));
+        assert_near(inverse.m[0][1] / -shears[i], 1, 1e-4, "the shear back");
+    }
+}
+
 /* ---- Similarities ---- */
 
 static struct similar {
@@ -281,6 +292,7 @@ int main(void) {
         cmocka_unit_test(magnitude_bounds_the_sum),
         cmocka_unit_test(random_inverses),
         cmocka_unit_test(extreme_sizes_have_inverses),
+        cmocka_unit_test(nearly_flat_is_not_flat),
         cmocka_unit_test(finite_means_all_twelve),
     };
     return cmocka_run_group_tests_name("rows", tests, NULL, NULL) + cmocka_run_group_tests_name("affine", others, NULL, NULL);
