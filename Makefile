@@ -4,7 +4,7 @@
 # CFLAGS, so that CFLAGS=-O0 (or -O3, or -march=native) gives the same bits. V=1 shows the commands.
 #
 # A part of the program on its own, wherever you like:
-#     make test T=box3 STATIONS="base shape" BUILD=/tmp/mine
+#     make test T=affine STATIONS=base BUILD=/tmp/mine
 
 VERSION := 0.1.0
 
@@ -65,7 +65,7 @@ SUBMAKE = $(MAKE) --no-print-directory $(if $(findstring -j,$(MAKEFLAGS)),,-j$(J
 # ---- What people ask for ----
 
 .DEFAULT_GOAL := all
-.PHONY: all demo test check tsan coverage bench reference format lint deps install uninstall clean help
+.PHONY: all demo test check tsan same coverage bench reference format lint deps install uninstall clean help
 
 all: ## build the program, build/monge
 	@tools/deps --check
@@ -91,6 +91,14 @@ check: deps ## the tests under the address and undefined-behaviour sanitizers, i
 tsan: deps ## the tests under the thread sanitizer
 	+@$(SUBMAKE) run-tests BUILD=$(BUILD)/tsan VARIANT="-O1 -fsanitize=thread"
 
+same: all ## that the golden pictures are the same from other compilers and optimization levels
+	+@$(SUBMAKE) build-program BUILD=$(BUILD)/same/gcc-O0 CC=gcc CFLAGS=-O0
+	tests/goldens.sh $(BUILD)/same/gcc-O0/monge
+	+@$(SUBMAKE) build-program BUILD=$(BUILD)/same/gcc-native CC=gcc CFLAGS="-O3 -march=native"
+	tests/goldens.sh $(BUILD)/same/gcc-native/monge
+	+@if command -v clang >/dev/null; then $(SUBMAKE) build-program BUILD=$(BUILD)/same/clang CC=clang CFLAGS=-O2 && \
+	    tests/goldens.sh $(BUILD)/same/clang/monge; fi
+
 coverage: deps ## the tests with gcc's line coverage, per file of src/; fails below 90 %
 	@find $(BUILD)/coverage -name '*.gcda' -delete 2>/dev/null || true
 	+@$(SUBMAKE) run-tests CC=gcc CFLAGS="-O0 -g" BUILD=$(BUILD)/coverage VARIANT="--coverage -fprofile-update=atomic"
@@ -107,11 +115,9 @@ format: ## lay out the code by .clang-format, where clang-format is installed
 	@if command -v clang-format >/dev/null; then clang-format -i $(wildcard src/*.[ch] src/*/*.[ch] tests/unit/*.[ch] tools/*.c); \
 	 else echo "format: clang-format is not installed"; fi
 
-lint: ## what compilers and clang-format have to say, as errors
+lint: ## compile everything with warnings as errors, with clang too
 	+@$(SUBMAKE) build-all BUILD=$(BUILD)/lint VARIANT=-Werror
 	+@if command -v clang >/dev/null; then $(SUBMAKE) build-all CC=clang BUILD=$(BUILD)/lint-clang VARIANT=-Werror; fi
-	@if command -v clang-format >/dev/null; then \
-	    clang-format --dry-run $(wildcard src/*.[ch] src/*/*.[ch] tests/unit/*.[ch] tools/*.c); fi
 
 deps: ## install what the build needs and is not there
 	@tools/deps

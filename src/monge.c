@@ -141,18 +141,6 @@ bool monge_scene_prepare(struct monge_scene *scene) {
 
 struct monge_settings monge_scene_settings(const struct monge_scene *scene) { return scene->scene.settings; }
 
-const char *monge_settings_check(const struct monge_settings *s) {
-    if (s->width < 1 || s->width > MONGE_MAX_SIDE) return "the width must be 1 to 65535 pixels";
-    if (s->height < 1 || s->height > MONGE_MAX_SIDE) return "the height must be 1 to 65535 pixels";
-    if ((uint64_t)s->width * s->height > MONGE_MAX_PIXELS)
-        return "a picture has at most 268435456 pixels, as 16384 x 16384: they take 3 GiB of memory";
-    if (s->samples < 1 || s->samples > MONGE_MAX_SAMPLES) return "the samples must be 1 to 65536 a pixel";
-    if (s->bits != 8 && s->bits != 16) return "the bits of a channel must be 8 or 16";
-    if (s->depth < 1 || s->depth > MONGE_MAX_DEPTH) return "the depth must be 1 (camera rays alone) to 64";
-    if (!(s->shadow >= 0.0 && s->shadow <= 1.0)) return "the shadow must be 0 (physical) to 1 (no shadows)";
-    return NULL;
-}
-
 /* ---- Rendering ---- */
 
 static double seconds(void) {

@@ -41,8 +41,7 @@ static void set_text(struct writer *w, char *key, char *value) {
 static void set_texts(struct writer *w) {
     const struct monge_settings *settings = &w->film->settings;
     const struct monge_region r = w->film->region;
-    char software[64], scene[HASH_TEXT_SIZE], region[80];
-    snprintf(software, sizeof software, "Monge %s", monge_version());
+    char software[] = "Monge " MONGE_VERSION, scene[HASH_TEXT_SIZE], region[80];
     set_text(w, "Software", software);
     hash_text(&w->film->scene, scene);
     set_text(w, "monge:scene", scene);
