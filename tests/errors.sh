@@ -13,6 +13,11 @@ for scene in *.yaml; do
     "$monge" check "$scene" >/dev/null 2>"$found" </dev/null
     status=$?
     [ "$update" = --update ] && cp "$found" "$want"
+    if [ ! -e "$want" ]; then
+        failed=$((failed + 1))
+        echo "FAILED $scene: $want is missing"
+        continue
+    fi
     expected=0
     grep -q -E '^[^ ]+: error: ' "$want" && expected=1
     if [ $status -eq $expected ] && cmp -s "$found" "$want"; then

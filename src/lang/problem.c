@@ -15,8 +15,8 @@ enum remedy {
 };
 
 #define NO_UTF8 AT_PROBLEM, "this is not UTF-8 text", "save the file as UTF-8"
-#define NO_TAG AT_PROBLEM, "a scene has no tags", "remove what starts with `!`"
-#define NO_DIRECTIVE AT_CONTEXT, "a line that starts with % is a directive to YAML, but not one it knows", "a scene needs none: remove the line"
+#define NO_TAG "a scene has no tags", "remove what starts with `!`"
+#define NO_DIRECTIVE "a line that starts with % is a directive to YAML, and this one is wrong", "a scene needs none: remove the line"
 #define NO_QUOTE_END AT_CONTEXT, "this quote is never closed", "close it"
 
 /* The first row whose words are in libyaml's message is taken; NULL stands for any. */
@@ -31,10 +31,10 @@ static const struct row {
     {NULL, "incomplete UTF-8", NO_UTF8},
     {NULL, "invalid Unicode character", NO_UTF8},
     {NULL, "control characters are not", AT_PROBLEM, "a control character", "remove it"},
-    {NULL, "undefined tag handle", NO_TAG},
-    {"a tag", NULL, NO_TAG},
-    {"directive", NULL, NO_DIRECTIVE},
-    {NULL, "duplicate %", NO_DIRECTIVE},
+    {"directive", NULL, AT_CONTEXT, NO_DIRECTIVE},
+    {NULL, "duplicate %", AT_PROBLEM, NO_DIRECTIVE},
+    {NULL, "undefined tag handle", AT_PROBLEM, NO_TAG},
+    {"a tag", NULL, AT_CONTEXT, NO_TAG},
     {NULL, "incompatible YAML", AT_PROBLEM, "a version of YAML that is not known here", "a scene needs no such line: remove it"},
     {"anchor", NULL, AT_CONTEXT, "an anchor without a name", "as in `&gold`, of letters, digits, - and _; `&` in a text needs quotes around it"},
     {"alias", NULL, AT_CONTEXT, "an alias without a name", "as in `*gold`, of letters, digits, - and _; `*` in a text needs quotes around it"},
@@ -49,7 +49,7 @@ static const struct row {
     {"plain scalar", "':'", AT_PROBLEM, "a `:` without a value, or without a space before it", "write `key: value`"},
     {NULL, "a tab character", TOKEN, NULL, NULL},
     {NULL, "cannot start any token", TOKEN, NULL, NULL},
-    {NULL, "find expected ':'", AT_CONTEXT, "a key without a `:`", "a key and its value are written `key: value`"},
+    {NULL, "find expected ':'", AT_CONTEXT, "a key without a `:`", "a key and its value are written `key: value`, the key on one line"},
     {NULL, "mapping values", COLON, NULL, NULL},
     {NULL, "block sequence entries", AT_PROBLEM, "a list cannot begin here", "write its first `- ` on a line of its own"},
     {NULL, "mapping keys", AT_PROBLEM, "a `?` where no key can stand", "remove it, or quote the text"},

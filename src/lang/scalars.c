@@ -1,4 +1,5 @@
 #include <ctype.h>
+#include <locale.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -109,6 +110,13 @@ static void report_no_number(struct checker *ck, const struct grammar_key *key, 
     if (n->kind == NODE_SCALAR && n->count <= 100) help_scalar(ck, d, n->text);
 }
 
+/* strtod takes the decimal point of the program's locale, the language a point. */
+static double to_double(struct checker *ck, const char *number) {
+    const char *point = localeconv()->decimal_point, *at = strchr(number, '.');
+    if (!at || strcmp(point, ".") == 0) return strtod(number, NULL);
+    return strtod(arena_format(ck->arena, "%.*s%s%s", (int)(at - number), number, point, at + 1), NULL);
+}
+
 /* Any finite number. */
 static bool parse_number(struct checker *ck, const struct grammar_key *key, const struct node *node, double *out) {
     const struct node *n = node_resolve(node);
@@ -116,7 +124,7 @@ static bool parse_number(struct checker *ck, const struct grammar_key *key, cons
         report_no_number(ck, key, node);
         return false;
     }
-    const double value = strtod(n->text, NULL);
+    const double value = to_double(ck, n->text);
     if (has_leading_zero(n->text)) {
         struct diagnostic *d = diag_error(ck->diag, node->span, "`%s`: a number with a leading zero, found %s", key->name, found_text(ck, node));
         diag_help(ck->diag, d, "write %.17g; some readers of YAML take a leading zero for base 8", value);

@@ -14,13 +14,13 @@ void *builder_grow(struct builder *b, void *array, uint32_t count, uint32_t *roo
 /* `inherited`: the material of the groups around, or NULL. */
 static void node_build(struct builder *b, const struct object_value *node, affine world_from_parent, const struct object_value *inherited) {
     affine parent_from_node = AFFINE_IDENTITY;
-    transform_build(b, object_list(node, KEY_NODE_TRANSFORM), &parent_from_node); /* a wrong one is reported: go on */
+    transform_build(b, object_list(node, KEY_OBJECT_TRANSFORM), &parent_from_node); /* a wrong one is reported: go on */
     const affine world_from_node = affine_compose(world_from_parent, parent_from_node);
-    const struct object_value *own = object_object(node, KEY_NODE_MATERIAL), *material = own ? own : inherited;
-    const struct object_value *bounds = object_object(node, KEY_NODE_BOUNDS);
+    const struct object_value *own = object_object(node, KEY_OBJECT_MATERIAL), *material = own ? own : inherited;
+    const struct object_value *bounds = object_object(node, KEY_OBJECT_BOUNDS);
     const int key = object_alternative(node);
     if (key < 0) return;
-    if (key != KEY_NODE_GROUP) {
+    if (key != KEY_OBJECT_GROUP) {
         shape_build(b, object_object(node, key), bounds, world_from_node, material_index(b, material));
         return;
     }

@@ -1,5 +1,6 @@
 /* Values of every type of the grammar: what is taken and as what, and what is refused. The texts of
  * the refusals are in tests/errors/; here is that there is exactly one. */
+#include <locale.h>
 #include <string.h>
 
 #include "lang/file.h"
@@ -53,15 +54,15 @@ static vec3 value_in(const struct object_value *file, const char *form) {
     if (strcmp(form, INTEGER) == 0) return vec3_all(object_number(object_object(file, KEY_FILE_IMAGE), KEY_IMAGE_SAMPLES));
     if (strcmp(form, CHOICE) == 0) return vec3_all(object_choice(object_object(file, KEY_FILE_RENDER), KEY_RENDER_SHADING));
     const struct object_value *node = item(file, KEY_FILE_SCENE);
-    if (strcmp(form, NUMBER) == 0) return vec3_all(object_number(object_object(node, KEY_NODE_SQUARE), KEY_SQUARE_SIZE));
-    if (strcmp(form, SIGNED) == 0) return vec3_all(object_number(object_object(node, KEY_NODE_QUADRIC), KEY_QUADRIC_XX));
-    if (strcmp(form, BOOLEAN) == 0) return vec3_all(object_choice(object_object(node, KEY_NODE_CONE), KEY_CONE_OPEN));
-    if (strcmp(form, POINT) == 0) return object_vec3(object_object(node, KEY_NODE_SPHERE), KEY_SPHERE_CENTER);
-    if (strcmp(form, DIRECTION) == 0) return object_vec3(object_object(node, KEY_NODE_PLANE), KEY_PLANE_NORMAL);
-    if (strcmp(form, AMOUNT) == 0) return object_vec3(object_object(node, KEY_NODE_MATERIAL), KEY_MATERIAL_REFLECTION);
-    if (strcmp(form, FACTORS) == 0) return object_vec3(object_list(node, KEY_NODE_TRANSFORM).items[0], KEY_STEP_SCALE);
+    if (strcmp(form, NUMBER) == 0) return vec3_all(object_number(object_object(node, KEY_OBJECT_SQUARE), KEY_SQUARE_SIZE));
+    if (strcmp(form, SIGNED) == 0) return vec3_all(object_number(object_object(node, KEY_OBJECT_QUADRIC), KEY_QUADRIC_XX));
+    if (strcmp(form, BOOLEAN) == 0) return vec3_all(object_choice(object_object(node, KEY_OBJECT_CONE), KEY_CONE_OPEN));
+    if (strcmp(form, POINT) == 0) return object_vec3(object_object(node, KEY_OBJECT_SPHERE), KEY_SPHERE_CENTER);
+    if (strcmp(form, DIRECTION) == 0) return object_vec3(object_object(node, KEY_OBJECT_PLANE), KEY_PLANE_NORMAL);
+    if (strcmp(form, AMOUNT) == 0) return object_vec3(object_object(node, KEY_OBJECT_MATERIAL), KEY_MATERIAL_REFLECTION);
+    if (strcmp(form, FACTORS) == 0) return object_vec3(object_list(node, KEY_OBJECT_TRANSFORM).items[0], KEY_STEP_SCALE);
     assert_string_equal(form, TEXT);
-    return vec3_all((double)strlen(object_text(node, KEY_NODE_NAME)));
+    return vec3_all((double)strlen(object_text(node, KEY_OBJECT_NAME)));
 }
 
 static struct row {
@@ -74,7 +75,7 @@ static struct row {
     {NUMBER, "\"2\"", {2, 2, 2}}, {NUMBER, "0.1", {0.1, 0.1, 0.1}}, {NUMBER, "1e-310", {1e-310, 1e-310, 1e-310}},
     {NUMBER, "1.7976931348623157e308", {1.7976931348623157e308, 1.7976931348623157e308, 1.7976931348623157e308}},
     {NUMBER, "0", WRONG}, {NUMBER, "-1", WRONG}, {NUMBER, "-0.0", WRONG}, {NUMBER, "1e-400", WRONG}, {NUMBER, "1e309", WRONG},
-    {NUMBER, ".", WRONG}, {NUMBER, "+", WRONG}, {NUMBER, "'-'", WRONG}, {NUMBER, "e5", WRONG}, {NUMBER, "1e", WRONG}, {NUMBER, "1e+", WRONG},
+    {SIGNED, ".", WRONG}, {SIGNED, "+", WRONG}, {SIGNED, "'-'", WRONG}, {SIGNED, "'-.'", WRONG}, {SIGNED, "e5", WRONG}, {SIGNED, ".e5", WRONG}, {NUMBER, "1e", WRONG}, {NUMBER, "1e+", WRONG},
     {NUMBER, "1.2.3", WRONG}, {NUMBER, "--1", WRONG}, {NUMBER, "0x10", WRONG}, {NUMBER, "0x1p3", WRONG}, {NUMBER, "inf", WRONG},
     {NUMBER, "nan", WRONG}, {NUMBER, ".inf", WRONG}, {NUMBER, "1_000", WRONG}, {NUMBER, "010", WRONG}, {NUMBER, "' 1'", WRONG},
     {NUMBER, "1 2", WRONG}, {NUMBER, "true", WRONG}, {NUMBER, "[1]", WRONG}, {NUMBER, "{}", WRONG}, {NUMBER, "~", WRONG}, {NUMBER, "''", WRONG},
@@ -183,7 +184,7 @@ static void every_value_keeps_its_place(void **state) {
     (void)state;
     struct checked c;
     check_text_as_scene(&c, "scene:\n  - sphere:\n      radius: 2\n    name: ball\n");
-    const struct object_value *node = item(c.file, KEY_FILE_SCENE), *sphere = object_object(node, KEY_NODE_SPHERE);
+    const struct object_value *node = item(c.file, KEY_FILE_SCENE), *sphere = object_object(node, KEY_OBJECT_SPHERE);
     const struct span radius = object_span(sphere, KEY_SPHERE_RADIUS), whole = object_span(sphere, KEY_SPHERE_CENTER);
     assert_int_equal(radius.line, 2);
     assert_int_equal(radius.column, 14);
@@ -191,11 +192,11 @@ static void every_value_keeps_its_place(void **state) {
     assert_int_equal(whole.column, 6);
     assert_true(object_has(sphere, KEY_SPHERE_RADIUS));
     assert_false(object_has(sphere, KEY_SPHERE_CENTER));
-    assert_int_equal(object_alternative(node), KEY_NODE_SPHERE);
-    assert_null(object_text(node, KEY_NODE_MATERIAL));
-    assert_null(object_object(node, KEY_NODE_MATERIAL));
-    assert_int_equal(object_list(node, KEY_NODE_TRANSFORM).count, 0);
-    assert_null(object_matrix(node, KEY_NODE_TRANSFORM));
+    assert_int_equal(object_alternative(node), KEY_OBJECT_SPHERE);
+    assert_null(object_text(node, KEY_OBJECT_MATERIAL));
+    assert_null(object_object(node, KEY_OBJECT_MATERIAL));
+    assert_int_equal(object_list(node, KEY_OBJECT_TRANSFORM).count, 0);
+    assert_null(object_matrix(node, KEY_OBJECT_TRANSFORM));
     checked_free(&c);
 }
 
@@ -212,15 +213,29 @@ static void errors_of_an_earlier_load_are_not_those_of_this_one(void **state) {
     checked_free(&c);
 }
 
-/* Past the messages that are kept, mistakes cost no memory of the diagnostics, and little else. */
-static void a_million_mistakes_are_counted(void **state) {
+/* A program may have a locale with a decimal comma. */
+static void a_point_is_a_point_in_every_locale(void **state) {
+    (void)state;
+    const char *const names[] = {"de_DE.UTF-8", "de_DE.utf8", "de_DE", "fr_FR.UTF-8", "fr_FR.utf8"};
+    const char *set = NULL;
+    for (size_t i = 0; i < COUNT(names) && !set; i++) set = setlocale(LC_NUMERIC, names[i]);
+    if (!set) skip();
+    struct checked c;
+    check_text_as_scene(&c, "scene: [{square: {size: 12.75e1}}]");
+    setlocale(LC_NUMERIC, "C");
+    assert_true(value_in(c.file, NUMBER).x == 127.5);
+    checked_free(&c);
+}
+
+/* They cost no memory but that of the text's nodes. */
+static void mistakes_past_the_kept_ones_are_counted(void **state) {
     (void)state;
     char *text = NULL;
     size_t size = 0;
     FILE *out = open_memstream(&text, &size);
-    fputs("scene: [{sphere: {", out);
-    for (int i = 0; i < 100000; i++) fprintf(out, "k%d: 1, radius: x, ", i);
-    fputs("}}]", out);
+    fputs("scene: [{sphere: {}", out);
+    for (int i = 0; i < 100000; i++) fprintf(out, ", k%d: 1, sphere: x", i);
+    fputs("}]", out);
     fclose(out);
     struct checked c;
     const struct lang_limits limits = {100, 10000000};
@@ -229,6 +244,7 @@ static void a_million_mistakes_are_counted(void **state) {
     assert_int_equal(c.diag.errors, 200000);
     assert_int_equal(c.diag.kept, DIAG_MAX_KEPT);
     assert_true(c.diag.arena.total < 300000);
+    assert_true(c.arena.total < 100 << 20); /* the nodes, and no texts */
     checked_free(&c);
     free(text);
 }
@@ -247,7 +263,8 @@ int main(void) {
     const struct CMUnitTest others[] = {
         cmocka_unit_test(every_value_keeps_its_place),
         cmocka_unit_test(errors_of_an_earlier_load_are_not_those_of_this_one),
-        cmocka_unit_test(a_million_mistakes_are_counted),
+        cmocka_unit_test(a_point_is_a_point_in_every_locale),
+        cmocka_unit_test(mistakes_past_the_kept_ones_are_counted),
     };
     return cmocka_run_group_tests_name("values", tests, NULL, NULL) + cmocka_run_group_tests_name("check", others, NULL, NULL);
 }
