@@ -65,7 +65,7 @@ SUBMAKE = $(MAKE) --no-print-directory $(if $(findstring -j,$(MAKEFLAGS)),,-j$(J
 # ---- What people ask for ----
 
 .DEFAULT_GOAL := all
-.PHONY: all demo test check tsan same coverage bench reference format lint deps install uninstall clean help
+.PHONY: all demo test check tsan same fuzz coverage bench reference format lint deps install uninstall clean help
 
 all: ## build the program, build/monge
 	@tools/deps --check
@@ -98,6 +98,9 @@ same: all ## that the golden pictures are the same from other compilers and opti
 	tests/goldens.sh $(BUILD)/same/gcc-native/monge
 	+@if command -v clang >/dev/null; then $(SUBMAKE) build-program BUILD=$(BUILD)/same/clang CC=clang CFLAGS=-O2 && \
 	    tests/goldens.sh $(BUILD)/same/clang/monge; fi
+
+fuzz: deps ## a minute of hostile bytes for the loader (libFuzzer where clang has it)
+	tests/fuzz/run.sh 60 $(BUILD)/fuzz
 
 coverage: deps ## the tests with gcc's line coverage, per file of src/; fails below 90 %
 	@find $(BUILD)/coverage -name '*.gcda' -delete 2>/dev/null || true

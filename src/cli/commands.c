@@ -23,7 +23,7 @@ const struct option_row OPTION_TABLE[OPTIONS] = {
                      "size of the picture in pixels"},
     [OPTION_SAMPLES] = {"samples", 0, VALUE_WHOLE, IN_RENDER, "N", 1, MONGE_MAX_SAMPLES, "samples a pixel"},
     [OPTION_REGION] = {"region", 0, VALUE_REGION, IN_RENDER, "X,Y,W,H", 1, MONGE_MAX_SIDE,
-                       "only these pixels, from the top left corner"},
+                       "only these pixels, from the top left corner; the file is of that size"},
     [OPTION_SHADING] = {"shading", 0, VALUE_CHOICE, IN_RENDER, "phong|diffuse|signature", 0, 0,
                         "all of the light; ambient and diffuse alone; or flat colours, unlit"},
     [OPTION_SHADOW] = {"shadow", 0, VALUE_FRACTION, IN_RENDER, "F", 0, 1,

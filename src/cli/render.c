@@ -75,16 +75,15 @@ static struct monge_film *render_film(const struct option_value *option, const c
 /* Everything after loading. A signal in here ends the program once nothing is half done. */
 static enum status render_scene(const struct option_value *option, const struct output *output,
                                 struct monge_scene *scene, struct picture *picture) {
-    struct monge_region region;
     picture->settings = monge_scene_settings(scene);
     override_settings(option, &picture->settings);
     const char *wrong = monge_settings_check(&picture->settings);
     if (wrong) say_error("%s: %s", output->scene, wrong);
-    if (wrong || !choose_region(&option[OPTION_REGION], output->scene, &picture->settings, &region))
+    if (wrong || !choose_region(&option[OPTION_REGION], output->scene, &picture->settings, &picture->region))
         return STATUS_TROUBLE;
 
     interrupt_defer();
-    struct monge_film *film = render_film(option, output->name, scene, &region, picture);
+    struct monge_film *film = render_film(option, output->name, scene, &picture->region, picture);
     const double rendered = clock_seconds();
     picture->done = film && write_film(film, output->path);
     picture->write_seconds = clock_seconds() - rendered;
@@ -112,7 +111,7 @@ static enum status render_output(const struct option_value *option, const struct
     monge_scene_free(load.scene);
     if (picture->done && !option[OPTION_QUIET].given)
         say_note("wrote %s  %ux%u  %.2f s", strcmp(output->path, "-") == 0 ? "standard output" : output->path,
-                 picture->settings.width, picture->settings.height, clock_seconds() - begun);
+                 picture->region.width, picture->region.height, clock_seconds() - begun);
     return status;
 }
 

@@ -74,7 +74,7 @@ static void print_picture(FILE *out, const struct picture *p) {
         return;
     }
     fprintf(out, ", \"width\": %u, \"height\": %u, \"samples\": %u, \"threads\": %u, \"primitives\": %zu",
-            p->settings.width, p->settings.height, p->settings.samples, p->stats.threads, p->primitives);
+            p->region.width, p->region.height, p->settings.samples, p->stats.threads, p->primitives);
     fprintf(out, ", \"seconds\": {\"load\": %.6f, \"build\": %.6f, \"render\": %.6f, \"write\": %.6f}",
             p->load_seconds, p->stats.build_seconds, p->stats.render_seconds, p->write_seconds);
     print_rays(out, p->stats.rays);

@@ -8,6 +8,7 @@ struct picture {
     const char *scene, *output; /* as the user knows them; "-" for the standard streams */
     bool done;                  /* else the rest means nothing */
     struct monge_settings settings;
+    struct monge_region region; /* what was rendered of it: the size of the file */
     struct monge_stats stats;
     size_t primitives;
     double load_seconds, write_seconds;

@@ -8,6 +8,39 @@
 
 static struct object_value *check_object(struct checker *ck, const struct grammar_kind *kind, const struct node *node);
 
+/* ---- Aliases ----
+ * What an anchor names is read once in each role: the time and the memory follow the text, not what its
+ * aliases would make of it. */
+
+static struct reading *find_reading(const struct checker *ck, const struct node *node, const void *as) {
+    struct reading *r = node->anchor < ck->readings_room ? ck->readings[node->anchor] : NULL;
+    while (r && r->as != as) r = r->next;
+    return r;
+}
+
+static void keep_reading(struct checker *ck, const struct node *node, struct reading reading) {
+    if (!node->anchor) return;
+    if (node->anchor >= ck->readings_room) {
+        const uint32_t room = 2 * node->anchor;
+        struct reading **larger = arena_array(ck->arena, room, sizeof *larger);
+        if (ck->readings) memcpy(larger, ck->readings, ck->readings_room * sizeof *larger);
+        ck->readings = larger;
+        ck->readings_room = room;
+    }
+    struct reading *kept = arena_alloc(ck->arena, sizeof *kept);
+    *kept = reading;
+    kept->next = ck->readings[node->anchor];
+    ck->readings[node->anchor] = kept;
+}
+
+/* The same object at the place of an alias; a named one is still the named one. */
+static struct object_value *read_again(struct checker *ck, const struct object_value *object, struct span span) {
+    struct object_value *again = arena_alloc(ck->arena, sizeof *again);
+    *again = *object;
+    again->span = span;
+    return again;
+}
+
 /* ---- Lists and names ---- */
 
 static bool check_list_of(struct checker *ck, const struct grammar_key *key, const struct node *node, struct object_list *out) {
@@ -20,6 +53,11 @@ static bool check_list_of(struct checker *ck, const struct grammar_key *key, con
         report_no_list(ck, key, node);
         return false;
     }
+    const struct reading *known = find_reading(ck, n, key);
+    if (known) {
+        *out = known->list;
+        return true;
+    }
     struct object_value **items = arena_array(ck->arena, count ? count : 1, sizeof *items);
     uint32_t good = 0;
     for (uint32_t i = 0; i < count; i++, first = first->next) {
@@ -27,6 +65,7 @@ static bool check_list_of(struct checker *ck, const struct grammar_key *key, con
         if (item) items[good++] = item;
     }
     *out = (struct object_list){items, good};
+    keep_reading(ck, n, (struct reading){.as = key, .list = *out});
     return true;
 }
 
@@ -266,6 +305,8 @@ static struct object_value *check_object(struct checker *ck, const struct gramma
         report_no_mapping(ck, kind, node);
         return NULL;
     }
+    const struct reading *known = find_reading(ck, mapping.node, kind);
+    if (known) return read_again(ck, known->object, node->span);
     assert(kind->key_count <= CHECK_MAX_KEYS);
     for (const struct node *name = mapping.node->first; name; name = name->next->next) {
         const int index = key_index(kind, name);
@@ -282,6 +323,7 @@ static struct object_value *check_object(struct checker *ck, const struct gramma
     check_alternatives(ck, object, &mapping, unknown);
     for (int i = 0; i < kind->key_count; i++)
         if (mapping.given[i]) check_companion(ck, object, &mapping, i);
+    keep_reading(ck, mapping.node, (struct reading){.as = kind, .object = object});
     return object;
 }
 

@@ -16,6 +16,14 @@ struct definition {
     struct definition *next; /* in the order of the file */
 };
 
+/* What a node that an anchor names was read as, for its aliases. */
+struct reading {
+    const void *as;              /* the kind of an object, the key of a list */
+    struct object_value *object; /* of a mapping */
+    struct object_list list;     /* of a sequence */
+    struct reading *next;        /* of the same node, as something else */
+};
+
 /* Where an object stands: the value of `key` in a mapping of `kind`. Both NULL: the file itself. */
 struct surrounding {
     const struct grammar_kind *kind;
@@ -28,6 +36,8 @@ struct checker {
     struct surrounding around; /* the object that is checked now */
     struct table names;        /* of definitions; one table serves as long as one kind is defined */
     struct definition *definitions, **definitions_end;
+    struct reading **readings; /* by the numbers of anchors */
+    uint32_t readings_room;
     bool names_lost; /* the definitions could not be read: nothing can be said of names */
 };
 

@@ -15,6 +15,7 @@
 
 struct object_value;
 
+/* Items may be shared by several lists, and fields by several objects: those behind aliases. */
 struct object_list {
     struct object_value **items;
     uint32_t count;

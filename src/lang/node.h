@@ -18,6 +18,7 @@ struct node {
     bool quoted;               /* a scalar in quotes or a block scalar */
     bool merged;               /* a key that a merge key brought here */
     uint32_t count;            /* scalar: bytes of text; sequence: items; mapping: pairs */
+    uint32_t anchor;           /* of a node that an anchor names: its number, from 1; else 0 */
     union {
         const char *text;      /* scalar: zero-terminated */
         struct node *first;    /* sequence, mapping: the first child or NULL */

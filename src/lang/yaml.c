@@ -24,6 +24,7 @@ struct reader {
     const struct node_limits *limits;
     struct node_problem *problem;
     struct table anchors; /* the newest of each name */
+    uint32_t anchor_count;
     size_t nodes;                 /* in the text */
     size_t merged;                /* pairs that merge keys have looked at */
     double values;                /* nodes, those behind aliases each time */
@@ -115,6 +116,7 @@ static struct anchor *add_anchor(struct reader *rd, const yaml_char_t *name, str
     struct anchor *a = arena_alloc(rd->arena, sizeof *a);
     *a = (struct anchor){.name = arena_text(rd->arena, (const char *)name, strlen((const char *)name)), .node = node, .open = true};
     table_put(rd->arena, &rd->anchors, a->name, a);
+    node->anchor = ++rd->anchor_count;
     return a;
 }
 

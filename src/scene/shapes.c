@@ -128,6 +128,18 @@ static bool corners(struct builder *b, const struct object_value *box, int min_k
     return false;
 }
 
+/* By a power of two, exactly: an equation means the same at any scale, but its squares must not
+ * overflow or underflow. */
+static void scale_terms(struct quadric_form *form) {
+    double *const terms[] = {&form->xx, &form->yy, &form->zz, &form->xy, &form->yz,
+                             &form->zx, &form->x,  &form->y,  &form->z,  &form->constant};
+    double most = 0.0;
+    int exponent;
+    for (size_t i = 0; i < sizeof terms / sizeof *terms; i++) most = box3_upper(most, fabs(*terms[i]));
+    frexp(most, &exponent);
+    for (size_t i = 0; i < sizeof terms / sizeof *terms; i++) *terms[i] = ldexp(*terms[i], 1 - exponent);
+}
+
 static const struct quadric_form *quadric_form_build(struct builder *b, const struct object_value *quadric, const struct object_value *bounds) {
     struct quadric_form form = {.clip = BOX3_ALL, .extent = BOX3_ALL, .open = object_choice(quadric, KEY_QUADRIC_OPEN)};
     double *const terms[] = {&form.xx, &form.yy, &form.zz, &form.xy, &form.yz, &form.zx, &form.x, &form.y, &form.z};
@@ -139,6 +151,7 @@ static const struct quadric_form *quadric_form_build(struct builder *b, const st
         any |= *terms[i] != 0.0;
     }
     form.constant = object_number(quadric, KEY_QUADRIC_CONSTANT);
+    scale_terms(&form);
     if (!any) {
         struct diagnostic *d = diag_error(b->diag, quadric->span, "a quadric without any of x, y and z has no surface");
         diag_help(b->diag, d, "as in {xx: 1, yy: 1, zz: 1, constant: -1}, a sphere");

@@ -27,11 +27,10 @@ static void check_messages(const struct monge_diagnostics *diag) {
     free(text);
 }
 
-int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size) {
-    const struct monge_limits limits = {.memory_bytes = 64 << 20, .values = 200000, .nesting = 50};
+static void load(const uint8_t *bytes, size_t size, const struct monge_limits *limits) {
     struct monge_diagnostics *diag = monge_diagnostics_new();
-    if (!diag) return 0;
-    struct monge_scene *scene = monge_load_memory("fuzz", (const char *)bytes, size, &limits, diag);
+    if (!diag) return;
+    struct monge_scene *scene = monge_load_memory("fuzz", (const char *)bytes, size, limits, diag);
     const bool wrong = monge_diagnostics_errors(diag) + monge_diagnostics_failures(diag) > 0;
     if (!scene != wrong) abort(); /* a scene, or a reason */
     if (scene) {
@@ -41,6 +40,11 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size) {
     check_messages(diag);
     monge_scene_free(scene);
     monge_diagnostics_free(diag);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size) {
+    load(bytes, size, &(struct monge_limits){.memory_bytes = 64 << 20, .values = 200000, .nesting = 50});
+    load(bytes, size, &(struct monge_limits){.memory_bytes = 140000, .values = 300, .nesting = 6});
     return 0;
 }
 

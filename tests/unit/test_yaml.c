@@ -205,6 +205,22 @@ static void many_merges_of_many_keys_end_early(void **state) {
     free(text);
 }
 
+/* libyaml compares each %TAG with all before it: 200,000 took it a minute. */
+static void many_tag_directives_end_early(void **state) {
+    (void)state;
+    char *text = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&text, &size);
+    for (int i = 0; i < 200000; i++) fprintf(out, "%%TAG !e%d! tag:x\n", i);
+    fputs("---\na: 1\n", out);
+    fclose(out);
+    struct parsed p;
+    parse(&p, text, size, 20, 1000000);
+    assert_string_equal(p.text, "more than 100 times %TAG: a scene has no tags");
+    parsed_free(&p);
+    free(text);
+}
+
 /* An arena that is full in the middle of a text leaves nothing behind (the sanitizers tell). */
 static void a_full_arena_leaves_by_its_jump(void **state) {
     (void)state;
@@ -234,6 +250,7 @@ int main(void) {
     const struct CMUnitTest others[] = {
         cmocka_unit_test(null_is_a_key_without_a_value),
         cmocka_unit_test(many_merges_of_many_keys_end_early),
+        cmocka_unit_test(many_tag_directives_end_early),
         cmocka_unit_test(a_full_arena_leaves_by_its_jump),
     };
     return cmocka_run_group_tests_name("rows", tests, NULL, NULL) + cmocka_run_group_tests_name("yaml", others, NULL, NULL);
