@@ -80,7 +80,7 @@ static bool load_guarded(struct load *load) {
     load->description.on_full = load->scene->arena.on_full = &full;
     load->description.limit = load->scene->arena.limit = load->limits.memory_bytes;
     if (setjmp(full) == 0) return load_scene(load);
-    diag_failure(load->diag, "%s: takes more memory than there is, or than %zu bytes (the limit `memory_bytes`)",
+    diag_failure(load->diag, "limit-memory", "%s: takes more memory than there is, or than %zu bytes (the limit `memory_bytes`)",
                  load->name, load->limits.memory_bytes);
     return false;
 }
@@ -88,7 +88,7 @@ static bool load_guarded(struct load *load) {
 static struct monge_scene *run_load(struct load *load) {
     load->scene = calloc(1, sizeof *load->scene);
     if (!load->scene) {
-        diag_failure(load->diag, "%s: out of memory", load->name);
+        diag_failure(load->diag, "out-of-memory", "%s: out of memory", load->name);
         return NULL;
     }
     const bool ok = load_guarded(load);
@@ -192,6 +192,6 @@ struct monge_film *monge_render(struct monge_scene *scene, const struct monge_se
 bool monge_film_write_png(const struct monge_film *film, const char *path, struct monge_diagnostics *diag) {
     char message[1024];
     if (png_write_film(film, path, message, sizeof message)) return true;
-    diag_failure(&diag->list, "%s", message);
+    diag_failure(&diag->list, "cannot-write", "%s", message);
     return false;
 }

@@ -36,7 +36,7 @@ unsigned monge_diagnostics_errors(const struct monge_diagnostics *diag);   /* in
 unsigned monge_diagnostics_warnings(const struct monge_diagnostics *diag); /* in scenes, so far */
 unsigned monge_diagnostics_failures(const struct monge_diagnostics *diag); /* of the system, so far: files, memory */
 
-/* All so far as text for people, `file:line:col: error: ...` and the line with a caret; by place. */
+/* All so far as text for people, `file:line:col: error[code]: ...` and the line with a caret; by place. */
 void monge_diagnostics_print(const struct monge_diagnostics *diag, FILE *out);
 
 /* ---- Scenes ---- */

@@ -19,7 +19,7 @@ for scene in *.yaml; do
         continue
     fi
     expected=0
-    grep -q -E '^[^ ]+: error: ' "$want" && expected=1
+    grep -q -E '^[^ ]+: error\[' "$want" && expected=1
     if [ $status -eq $expected ] && cmp -s "$found" "$want"; then
         passed=$((passed + 1))
     else

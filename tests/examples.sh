@@ -17,7 +17,7 @@ done
 
 for scene in "$work"/*.yaml $(find scenes -name '*.yaml' | sort); do
     if "$program" render "$scene" --size 64x48 --samples 1 -o "$work/picture.png" 2>"$work/messages" &&
-        ! grep -q 'warning:\|error:' "$work/messages"; then
+        ! grep -q 'warning\[\|error\[' "$work/messages"; then
         passed=$((passed + 1))
     else
         failed=$((failed + 1))

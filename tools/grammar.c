@@ -41,7 +41,7 @@ static const struct node *read_file(const char *folder, const char *file) {
     struct node_problem problem = {0};
     const struct node *root = node_parse(&arena, &diag, read_source(folder, file), &limits, &problem);
     if (!root) {
-        if (problem.text) diag_error(&diag, problem.at, "%s", problem.text);
+        if (problem.text) diag_error(&diag, problem.at, "not-yaml", "%s", problem.text);
         diag_print(&diag, stderr);
         exit(2);
     }
@@ -49,7 +49,7 @@ static const struct node *read_file(const char *folder, const char *file) {
 }
 
 static _Noreturn void fail(const struct node *node, const char *message) {
-    diag_error(&diag, node->span, "%s", message);
+    diag_error(&diag, node->span, "definition", "%s", message);
     diag_print(&diag, stderr);
     exit(2);
 }

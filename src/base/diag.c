@@ -130,8 +130,25 @@ static void count(struct diagnostics *diag, enum severity severity) {
     }
 }
 
+static void append_related(struct diagnostics *diag, struct diagnostic *d, struct span span, const char *text) {
+    struct related *related = arena_alloc(&diag->arena, sizeof *related);
+    related->place = make_place(diag, span);
+    related->text = text;
+    struct related **at = &d->related;
+    while (*at) at = &(*at)->next;
+    *at = related;
+}
+
+/* What is under way, from the inside: a few of a long chain are enough. */
+static void add_frames(struct diagnostics *diag, struct diagnostic *d) {
+    enum { SHOWN = 6 };
+    int i = 0;
+    for (const struct diag_frame *frame = diag->frame; frame && i < SHOWN; frame = frame->outer, i++)
+        append_related(diag, d, frame->span, frame->text(&diag->arena, frame));
+}
+
 /* Past the kept ones nothing is copied: a file of a million mistakes is no burden. */
-static struct diagnostic *add(struct diagnostics *diag, enum severity severity, struct span span,
+static struct diagnostic *add(struct diagnostics *diag, enum severity severity, struct span span, const char *code,
                               const char *format, va_list args) {
     if (diag_full(diag) && severity != SEVERITY_FAILURE) {
         count(diag, severity);
@@ -139,35 +156,37 @@ static struct diagnostic *add(struct diagnostics *diag, enum severity severity, 
     }
     struct diagnostic *d = arena_alloc(&diag->arena, sizeof *d);
     d->severity = severity;
+    d->code = code;
     d->message = format_text(&diag->arena, format, args);
     d->place = make_place(diag, span);
     if (already_there(diag, d)) return d;
     count(diag, severity);
     diag->kept++;
     insert(diag, d);
+    add_frames(diag, d);
     return d;
 }
 
-struct diagnostic *diag_error(struct diagnostics *diag, struct span span, const char *format, ...) {
+struct diagnostic *diag_error(struct diagnostics *diag, struct span span, const char *code, const char *format, ...) {
     va_list args;
     va_start(args, format);
-    struct diagnostic *d = add(diag, SEVERITY_ERROR, span, format, args);
+    struct diagnostic *d = add(diag, SEVERITY_ERROR, span, code, format, args);
     va_end(args);
     return d;
 }
 
-struct diagnostic *diag_warning(struct diagnostics *diag, struct span span, const char *format, ...) {
+struct diagnostic *diag_warning(struct diagnostics *diag, struct span span, const char *code, const char *format, ...) {
     va_list args;
     va_start(args, format);
-    struct diagnostic *d = add(diag, SEVERITY_WARNING, span, format, args);
+    struct diagnostic *d = add(diag, SEVERITY_WARNING, span, code, format, args);
     va_end(args);
     return d;
 }
 
-struct diagnostic *diag_failure(struct diagnostics *diag, const char *format, ...) {
+struct diagnostic *diag_failure(struct diagnostics *diag, const char *code, const char *format, ...) {
     va_list args;
     va_start(args, format);
-    struct diagnostic *d = add(diag, SEVERITY_FAILURE, (struct span){0}, format, args);
+    struct diagnostic *d = add(diag, SEVERITY_FAILURE, (struct span){0}, code, format, args);
     va_end(args);
     return d;
 }
@@ -192,13 +211,8 @@ void diag_related(struct diagnostics *diag, struct diagnostic *d, struct span sp
     if (d == &diag->beyond) return;
     va_list args;
     va_start(args, format);
-    struct related *related = arena_alloc(&diag->arena, sizeof *related);
-    related->place = make_place(diag, span);
-    related->text = format_text(&diag->arena, format, args);
+    append_related(diag, d, span, format_text(&diag->arena, format, args));
     va_end(args);
-    struct related **at = &d->related;
-    while (*at) at = &(*at)->next;
-    *at = related;
 }
 
 /* ---- Printing ---- */
@@ -215,18 +229,20 @@ static void print_place(const struct place *place, const char *help, FILE *out) 
     fprintf(out, help ? " %s\n" : "\n", help);
 }
 
-static void print_head(const struct place *place, const char *word, const char *message, FILE *out) {
+static void print_head(const struct place *place, const char *word, const char *code, const char *message, FILE *out) {
     if (place->file) fprintf(out, "%s:%u:%u: ", place->file, (unsigned)place->line, (unsigned)place->column);
     else fputs("monge: ", out);
-    fprintf(out, "%s: %s\n", word, message);
+    fputs(word, out);
+    if (code) fprintf(out, "[%s]", code);
+    fprintf(out, ": %s\n", message);
 }
 
 static void print_one(const struct diagnostic *d, FILE *out) {
-    print_head(&d->place, d->severity == SEVERITY_WARNING ? "warning" : "error", d->message, out);
+    print_head(&d->place, d->severity == SEVERITY_WARNING ? "warning" : "error", d->code, d->message, out);
     print_place(&d->place, d->help, out);
     if (d->note) fprintf(out, "%*s = %s\n", GUTTER, "", d->note);
     for (const struct related *r = d->related; r; r = r->next) {
-        print_head(&r->place, "note", r->text, out);
+        print_head(&r->place, "note", NULL, r->text, out);
         print_place(&r->place, NULL, out);
     }
 }

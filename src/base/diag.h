@@ -1,6 +1,6 @@
 /* Diagnostics: what is wrong with a scene, where, and how to mend it.
  *
- *     king.yaml:4:13: error: a sphere has no key `raduis`
+ *     king.yaml:4:13: error[unknown-key]: a sphere has no key `raduis`
  *        4 |   - sphere: {raduis: 2}
  *          |              ^~~~~~ did you mean `radius`?
  *          = a sphere takes center, radius
@@ -37,6 +37,7 @@ struct related {
 
 struct diagnostic {
     enum severity severity;
+    const char *code; /* stable, of grammar/diagnostics.yaml: "unknown-key" */
     struct place place;
     const char *message; /* one line, no full stop */
     const char *help;    /* the smallest fix, drawn behind the caret; NULL: none */
@@ -47,24 +48,33 @@ struct diagnostic {
 
 enum { DIAG_MAX_KEPT = 50 }; /* further ones are counted, not kept */
 
+/* What is under way while a diagnostic is made, the innermost first: a template in use, a turn of a
+ * loop. Each is told as a related place. */
+struct diag_frame {
+    struct span span;
+    const char *(*text)(struct arena *arena, const struct diag_frame *frame);
+    const struct diag_frame *outer;
+};
+
 /* A list in the order of places within a file. Starts as a zeroed struct. */
 struct diagnostics {
     struct arena arena; /* owns all the texts */
+    const struct diag_frame *frame; /* NULL: nothing is under way */
     struct diagnostic *first;
     unsigned kept;
     struct diagnostic beyond; /* stands for the ones that are not kept */
     unsigned errors, warnings, failures; /* all of them, the ones not kept too */
 };
 
-/* Each returns the diagnostic, to add help, a note or related places to; never NULL. The same
+/* `code` is static. Each returns the diagnostic, to add help, a note or related places to; never NULL. The same
  * message at the same place is kept and counted once, as long as there is room to keep it. What
  * they are told of a file may be in any bytes: it comes out as UTF-8 that a terminal can take. */
-struct diagnostic *diag_error(struct diagnostics *diag, struct span span, const char *format, ...)
+struct diagnostic *diag_error(struct diagnostics *diag, struct span span, const char *code, const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
+struct diagnostic *diag_warning(struct diagnostics *diag, struct span span, const char *code, const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
+struct diagnostic *diag_failure(struct diagnostics *diag, const char *code, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
-struct diagnostic *diag_warning(struct diagnostics *diag, struct span span, const char *format, ...)
-    __attribute__((format(printf, 3, 4)));
-struct diagnostic *diag_failure(struct diagnostics *diag, const char *format, ...)
-    __attribute__((format(printf, 2, 3)));
 void diag_help(struct diagnostics *diag, struct diagnostic *d, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 void diag_note(struct diagnostics *diag, struct diagnostic *d, const char *format, ...)

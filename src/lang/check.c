@@ -71,7 +71,7 @@ static bool check_list_of(struct checker *ck, const struct grammar_key *key, con
 
 static bool key_is_word(struct checker *ck, const struct grammar_kind *kind, const struct node *key) {
     if (node_resolve(key)->kind == NODE_SCALAR) return true;
-    diag_error(ck->diag, key->span, "a key of %s is a word, found %s", kind->title, found_text(ck, key));
+    diag_error(ck->diag, key->span, "key-not-a-word", "a key of %s is a word, found %s", kind->title, found_text(ck, key));
     return false;
 }
 
@@ -103,7 +103,7 @@ static bool check_map_of(struct checker *ck, const struct grammar_key *key, cons
         if (!key_is_word(ck, key->of, name)) continue;
         const struct definition *before = table_find(&ck->names, node_resolve(name)->text);
         if (before) {
-            struct diagnostic *d = diag_error(ck->diag, name->span, "`%s` is defined twice", short_text(ck, before->name));
+            struct diagnostic *d = diag_error(ck->diag, name->span, "defined-twice", "`%s` is defined twice", short_text(ck, before->name));
             diag_related(ck->diag, d, before->span, "first defined here");
             continue;
         }
@@ -180,7 +180,7 @@ static struct value *check_field(struct checker *ck, const struct grammar_kind *
 }
 
 static void report_twice(struct checker *ck, const struct grammar_key *key, const struct node *name, const struct node *first) {
-    struct diagnostic *d = diag_error(ck->diag, name->span, "`%s` is given twice", key->name);
+    struct diagnostic *d = diag_error(ck->diag, name->span, "key-twice", "`%s` is given twice", key->name);
     diag_related(ck->diag, d, first->span, "first given here");
 }
 
@@ -207,7 +207,7 @@ static bool check_pair(struct checker *ck, struct object_value *object, struct m
         return false;
     }
     if (key->type == GRAMMAR_LATER) {
-        diag_error(ck->diag, name->span, "`%s` is not there yet: %s", key->name, key->doc);
+        diag_error(ck->diag, name->span, "not-there-yet", "`%s` is not there yet: %s", key->name, key->doc);
         return false;
     }
     object->fields[index] = check_field(ck, object->kind, key, name);
@@ -221,14 +221,14 @@ static void check_required(struct checker *ck, struct object_value *object, cons
         if (!key->required || mapping->given[i]) continue;
         object->failed = true;
         if (mapping->meant[i]) continue; /* reported as an unknown key */
-        struct diagnostic *d = diag_error(ck->diag, object->span, "%s needs the key `%s`", object->kind->title, key->name);
+        struct diagnostic *d = diag_error(ck->diag, object->span, "missing-key", "%s needs the key `%s`", object->kind->title, key->name);
         if (key->example) diag_help(ck->diag, d, "as in `%s`", key->example);
     }
 }
 
 static void report_beside(struct checker *ck, const struct object_value *object, const struct node *key, const struct node *first) {
     const char *one = node_resolve(first)->text;
-    struct diagnostic *d = diag_error(ck->diag, key->span, "`%s` beside `%s`: %s is one of them", node_resolve(key)->text, one, object->kind->title);
+    struct diagnostic *d = diag_error(ck->diag, key->span, "one-of-them", "`%s` beside `%s`: %s is one of them", node_resolve(key)->text, one, object->kind->title);
     diag_related(ck->diag, d, first->span, "`%s` is given here", one);
     const bool item = ck->around.key && ck->around.key->type == GRAMMAR_LIST;
     diag_note(ck->diag, d, item ? "write each as an item of its own, starting with `- `" : "keep one of them; another is a step of its own");
@@ -266,7 +266,7 @@ static void check_companion(struct checker *ck, struct object_value *object, con
     for (const char *const *other = key->excludes; other && *other; other++) {
         const struct node *there = mapping->given[grammar_find_key(object->kind, *other)];
         if (!there || in_order(here, there)) continue; /* reported at the later of the two */
-        struct diagnostic *d = diag_error(ck->diag, here->span, "`%s` contradicts `%s`", key->name, *other);
+        struct diagnostic *d = diag_error(ck->diag, here->span, "contradiction", "`%s` contradicts `%s`", key->name, *other);
         diag_help(ck->diag, d, "keep one of them");
         diag_related(ck->diag, d, there->span, "`%s` is given here", *other);
         object->failed = true;
@@ -276,7 +276,7 @@ static void check_companion(struct checker *ck, struct object_value *object, con
         if (mapping->given[needed]) continue;
         object->failed = true;
         if (mapping->meant[needed]) continue;
-        struct diagnostic *d = diag_error(ck->diag, here->span, "`%s` needs `%s` beside it", key->name, *other);
+        struct diagnostic *d = diag_error(ck->diag, here->span, "missing-key", "`%s` needs `%s` beside it", key->name, *other);
         if (key->example) diag_help(ck->diag, d, "as in `%s`", key->example);
     }
 }
@@ -332,7 +332,7 @@ static void warn_unused(struct checker *ck) {
     for (const struct definition *def = ck->definitions; def; def = def->next)
         if (!def->used) {
             const char *title = def->object->kind->title;
-            struct diagnostic *d = diag_warning(ck->diag, def->span, "the %s `%s` is never used", strchr(title, ' ') + 1, short_text(ck, def->name));
+            struct diagnostic *d = diag_warning(ck->diag, def->span, "unused-definition", "the %s `%s` is never used", strchr(title, ' ') + 1, short_text(ck, def->name));
             diag_help(ck->diag, d, "use it, or remove it");
         }
 }

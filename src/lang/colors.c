@@ -62,7 +62,7 @@ static bool help_rgb(struct checker *ck, struct diagnostic *d, const char *text)
 
 static void report_no_color(struct checker *ck, const struct grammar_key *key, const struct node *node) {
     if (only_counted(ck, node->span)) return;
-    struct diagnostic *d = diag_error(ck->diag, node->span, "`%s`: expected %s, found %s", key->name,
+    struct diagnostic *d = diag_error(ck->diag, node->span, "not-a-color", "`%s`: expected %s, found %s", key->name,
                                       key->type == GRAMMAR_AMOUNT ? "a number or a colour" : "a colour", found_text(ck, node));
     const struct node *n = node_resolve(node);
     const char *text = n->kind == NODE_SCALAR && n->count <= 40 ? n->text : "", *hash = arena_format(ck->arena, "#%s", text);
@@ -80,13 +80,13 @@ static void report_no_color_name(struct checker *ck, const struct grammar_key *k
     struct spelling s = spelling_begin(text);
     for (int i = 0; i < grammar_color_count; i++) spelling_offer(&s, grammar_colors[i].name);
     if (text[0] == '#') {
-        struct diagnostic *d = diag_error(ck->diag, node->span, "`%s`: a colour in hexadecimal has 3 or 6 digits 0-9 a-f, found %s",
+        struct diagnostic *d = diag_error(ck->diag, node->span, "not-a-color", "`%s`: a colour in hexadecimal has 3 or 6 digits 0-9 a-f, found %s",
                                           key->name, found_text(ck, node));
         unsigned char rgb[3];
         const char *start = arena_text(ck->arena, text, strlen(text) > 7 ? 7 : 0);
         if (strlen(text) == 9 && parse_hex(start, rgb)) diag_help(ck->diag, d, "without the last two, which say how opaque it is: \"%s\"", start);
     } else if (s.best) {
-        struct diagnostic *d = diag_error(ck->diag, node->span, "`%s`: no colour is named %s", key->name, found_text(ck, node));
+        struct diagnostic *d = diag_error(ck->diag, node->span, "unknown-color", "`%s`: no colour is named %s", key->name, found_text(ck, node));
         diag_help(ck->diag, d, "did you mean `%s`?", s.best);
     } else {
         report_no_color(ck, key, node);
@@ -104,19 +104,19 @@ static bool looks_like_bytes(const double v[3]) {
 static bool check_color_range(struct checker *ck, const struct grammar_key *key, const struct node *node, const double v[3]) {
     const bool over = key->has_max && !(v[0] <= key->max && v[1] <= key->max && v[2] <= key->max);
     if (over && looks_like_bytes(v)) {
-        struct diagnostic *d = diag_error(ck->diag, node->span, "`%s`: [r, g, b] is linear, each 0 to 1", key->name);
+        struct diagnostic *d = diag_error(ck->diag, node->span, "color-of-bytes", "`%s`: [r, g, b] is linear, each 0 to 1", key->name);
         diag_help(ck->diag, d, "did you mean \"#%02x%02x%02x\"?", (unsigned)v[0], (unsigned)v[1], (unsigned)v[2]);
         return false;
     }
     if (!(v[0] >= 0.0 && v[1] >= 0.0 && v[2] >= 0.0)) {
-        diag_error(ck->diag, node->span, "`%s`: a colour has no negative parts", key->name);
+        diag_error(ck->diag, node->span, "out-of-range", "`%s`: a colour has no negative parts", key->name);
         return false;
     }
     if (over && key->type == GRAMMAR_AMOUNT) {
-        diag_error(ck->diag, node->span, "`%s`: each part must be 0 to 1", key->name);
+        diag_error(ck->diag, node->span, "out-of-range", "`%s`: each part must be 0 to 1", key->name);
         return false;
     }
-    if (over) diag_warning(ck->diag, node->span, "`%s`: gives back more light than it gets: a part is over 1", key->name);
+    if (over) diag_warning(ck->diag, node->span, "too-much-light", "`%s`: gives back more light than it gets: a part is over 1", key->name);
     return true;
 }
 
@@ -127,7 +127,7 @@ static bool check_color_list(struct checker *ck, const struct grammar_key *key, 
     component.has_min = component.has_max = false;
     double v[3];
     if (n->count != 3) {
-        diag_error(ck->diag, node->span, "`%s`: expected [r, g, b], found %s", key->name, found_text(ck, node));
+        diag_error(ck->diag, node->span, "not-a-color", "`%s`: expected [r, g, b], found %s", key->name, found_text(ck, node));
         return false;
     }
     bool ok = true;

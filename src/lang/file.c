@@ -38,8 +38,8 @@ static const struct source *read_stream(struct arena *arena, struct diagnostics 
     size_t size = regular ? (size_t)info.st_size : 0;
     char *text = size > limit ? NULL : read_all(arena, in, size, limit, &size);
     if (text && size <= limit) return file_from_memory(arena, name, text, size);
-    if (size > limit) diag_failure(diag, "%s: longer than %zu bytes (the limit `file_bytes`)", name, limit);
-    else diag_failure(diag, "cannot read %s: %s", name, strerror(errno));
+    if (size > limit) diag_failure(diag, "limit-file-bytes", "%s: longer than %zu bytes (the limit `file_bytes`)", name, limit);
+    else diag_failure(diag, "cannot-read", "cannot read %s: %s", name, strerror(errno));
     return NULL;
 }
 
@@ -47,7 +47,7 @@ const struct source *file_read(struct arena *arena, struct diagnostics *diag, co
     if (strcmp(path, "-") == 0) return read_stream(arena, diag, "<stdin>", stdin, limit);
     FILE *in = fopen(path, "rb");
     if (!in) {
-        diag_failure(diag, "cannot read %s: %s", path, strerror(errno));
+        diag_failure(diag, "cannot-read", "cannot read %s: %s", path, strerror(errno));
         return NULL;
     }
     const struct source *source = read_stream(arena, diag, path, in, limit);

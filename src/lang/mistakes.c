@@ -10,7 +10,7 @@
 
 bool only_counted(struct checker *ck, struct span span) {
     if (!diag_full(ck->diag)) return false;
-    diag_error(ck->diag, span, " ");
+    diag_error(ck->diag, span, "beyond", " ");
     return true;
 }
 
@@ -188,7 +188,7 @@ static int help_unknown(struct checker *ck, struct diagnostic *d, const struct g
 
 int report_unknown_key(struct checker *ck, const struct grammar_kind *kind, struct mapping *mapping, const struct node *key) {
     if (only_counted(ck, key->span)) return -1;
-    struct diagnostic *d = diag_error(ck->diag, key->span, "%s has no key `%s`", kind->title, short_text(ck, node_resolve(key)->text));
+    struct diagnostic *d = diag_error(ck->diag, key->span, "unknown-key", "%s has no key `%s`", kind->title, short_text(ck, node_resolve(key)->text));
     const int meant = help_unknown(ck, d, kind, mapping, key);
     diag_note(ck->diag, d, "%s takes %s", kind->title, key_names(ck, kind, false));
     if (key->merged || mapping->object->span.line != mapping->node->span.line || mapping->object->span.column != mapping->node->span.column)
@@ -198,7 +198,7 @@ int report_unknown_key(struct checker *ck, const struct grammar_kind *kind, stru
 
 void report_no_value(struct checker *ck, const struct grammar_key *key, const struct node *name) {
     if (only_counted(ck, name->span)) return;
-    struct diagnostic *d = diag_error(ck->diag, name->span, "`%s` has no value", key->name);
+    struct diagnostic *d = diag_error(ck->diag, name->span, "no-value", "`%s` has no value", key->name);
     const struct node *next = name->next->next ? node_resolve(name->next->next) : NULL; /* the key after it */
     if (takes_mapping(key) && next && next->kind == NODE_SCALAR && has_key(key->of, next->text))
         diag_help(ck->diag, d, "indent `%s` further, so that it belongs to `%s`", next->text, key->name);
@@ -265,7 +265,7 @@ static bool is_list_of_mappings(const struct node *n) {
 void report_no_mapping(struct checker *ck, const struct grammar_kind *kind, const struct node *node) {
     if (only_counted(ck, node->span)) return;
     const struct node *n = node_resolve(node);
-    struct diagnostic *d = diag_error(ck->diag, node->span, "expected %s, found %s", kind->title, found_text(ck, node));
+    struct diagnostic *d = diag_error(ck->diag, node->span, "not-a-mapping", "expected %s, found %s", kind->title, found_text(ck, node));
     const bool word = n->kind == NODE_SCALAR;
     const int index = word ? grammar_find_key(kind, n->text) : -1;
     const struct spelling s = word ? nearest_key(kind, n->text) : spelling_begin("");
@@ -286,7 +286,7 @@ void report_no_mapping(struct checker *ck, const struct grammar_kind *kind, cons
 void report_no_list(struct checker *ck, const struct grammar_key *key, const struct node *node) {
     if (only_counted(ck, node->span)) return;
     const struct node *n = node_resolve(node);
-    struct diagnostic *d = diag_error(ck->diag, node->span, "`%s`: expected a list of %ss, found %s", key->name,
+    struct diagnostic *d = diag_error(ck->diag, node->span, "not-a-list", "`%s`: expected a list of %ss, found %s", key->name,
                                       strchr(key->of->title, ' ') + 1, found_text(ck, node));
     if (n->kind == NODE_MAPPING) diag_help(ck->diag, d, "start each one with `- `");
     else if (n->kind == NODE_SCALAR && has_key(key->of, n->text)) diag_help(ck->diag, d, "write `%s: [{%s: ...}]`", key->name, n->text);
@@ -295,7 +295,7 @@ void report_no_list(struct checker *ck, const struct grammar_key *key, const str
 
 void report_no_map(struct checker *ck, const struct grammar_key *key, const struct node *node) {
     if (only_counted(ck, node->span)) return;
-    struct diagnostic *d = diag_error(ck->diag, node->span, "`%s`: expected names, each with %s, found %s", key->name,
+    struct diagnostic *d = diag_error(ck->diag, node->span, "not-a-map", "`%s`: expected names, each with %s, found %s", key->name,
                                       key->of->title, found_text(ck, node));
     if (is_list_of_mappings(node_resolve(node))) diag_help(ck->diag, d, "write names instead of `- `, as in `%s: {gold: {...}}`", key->name);
     else diag_help(ck->diag, d, "as in `%s: {gold: {...}}`", key->name);
@@ -306,7 +306,7 @@ void report_no_name(struct checker *ck, const struct grammar_key *key, const str
     const struct node *n = node_resolve(node);
     struct spelling s = spelling_begin(n->text);
     for (const struct definition *def = ck->definitions; def; def = def->next) spelling_offer(&s, def->name);
-    struct diagnostic *d = diag_error(ck->diag, node->span, "no %s is named `%s`", key->name, short_text(ck, n->text));
+    struct diagnostic *d = diag_error(ck->diag, node->span, "unknown-name", "no %s is named `%s`", key->name, short_text(ck, n->text));
     if (s.best) {
         const struct definition *def = table_find(&ck->names, s.best);
         diag_help(ck->diag, d, "did you mean `%s`?", s.best);
@@ -318,6 +318,6 @@ void report_no_name(struct checker *ck, const struct grammar_key *key, const str
 
 void report_no_alternative(struct checker *ck, const struct object_value *object) {
     if (only_counted(ck, object->span)) return;
-    struct diagnostic *d = diag_error(ck->diag, object->span, "%s without its kind", object->kind->title);
+    struct diagnostic *d = diag_error(ck->diag, object->span, "no-alternative", "%s without its kind", object->kind->title);
     diag_note(ck->diag, d, "%s has one of %s", object->kind->title, key_names(ck, object->kind, true));
 }

@@ -121,13 +121,13 @@ static bool report_indent(const struct report *r, uint32_t line) {
     const struct span at = {r->source, line, own[0].column, 1};
     const struct source_level *sibling = nearest_level(levels, count, own[0]);
     if (has_level(levels, count, (struct source_level){.column = own[0].column, .dash = !own[0].dash})) {
-        struct diagnostic *d = diag_error(r->diag, at, own[0].dash ? "a list item among keys" : "a key among list items");
+        struct diagnostic *d = diag_error(r->diag, at, "bad-indentation", own[0].dash ? "a list item among keys" : "a key among list items");
         diag_help(r->diag, d, own[0].dash ? "remove the `- `" : "start it with `- `, or indent it into an item");
         return true;
     }
     if (!sibling || sibling->column == own[0].column) return false;
     const char *what = own[0].dash ? "list item" : "key";
-    struct diagnostic *d = diag_error(r->diag, at, "this %s starts in column %u, its siblings in column %u", what,
+    struct diagnostic *d = diag_error(r->diag, at, "bad-indentation", "this %s starts in column %u, its siblings in column %u", what,
                                       (unsigned)own[0].column + 1, (unsigned)sibling->column + 1);
     if (sibling->column == 0) diag_help(r->diag, d, "do not indent it");
     else diag_help(r->diag, d, "indent it by %u space%s", (unsigned)sibling->column, sibling->column == 1 ? "" : "s");
@@ -141,20 +141,20 @@ static void report_rest(const struct report *r, struct span at) {
     character_at(r, at, found);
     const struct span q = r->p->quoted_at;
     if (strchr("]}", found[0]) && *found)
-        diag_help(r->diag, diag_error(r->diag, at, "a `%s` that nothing opened", found), "remove it, or open it with `%s`", *found == ']' ? "[" : "{");
+        diag_help(r->diag, diag_error(r->diag, at, "unopened-bracket", "a `%s` that nothing opened", found), "remove it, or open it with `%s`", *found == ']' ? "[" : "{");
     else if (q.source && r->p->quoted_end.line == at.line && r->p->quoted_end.column <= at.column) {
-        struct diagnostic *d = diag_error(r->diag, at, "something behind the closing quote of a text");
+        struct diagnostic *d = diag_error(r->diag, at, "after-quote", "something behind the closing quote of a text");
         if (q.line == at.line) diag_help(r->diag, d, "put all of the text into the quotes, and `\\` before a `\"` within");
         else diag_help(r->diag, d, "the text began on line %u: is it closed where it should be?", (unsigned)q.line + 1);
         diag_related(r->diag, d, q, "the text opens here");
     } else
-        diag_help(r->diag, diag_error(r->diag, at, "something behind a value that has ended"), "remove it, or quote the whole value");
+        diag_help(r->diag, diag_error(r->diag, at, "after-value", "something behind a value that has ended"), "remove it, or quote the whole value");
 }
 
 static bool report_invisible(const struct report *r, uint32_t line) {
     const char *invisible = invisible_start(r, line);
     if (!invisible) return false;
-    diag_help(r->diag, diag_error(r->diag, (struct span){r->source, line, 0, 1}, "the line begins with %s", invisible),
+    diag_help(r->diag, diag_error(r->diag, (struct span){r->source, line, 0, 1}, "bad-character", "the line begins with %s", invisible),
               "remove it; YAML indents with spaces");
     return true;
 }
@@ -169,15 +169,15 @@ static void report_colon(const struct report *r, struct span at) {
     const size_t begin = source_offset((struct span){r->source, at.line, here ? own[here - 1].column : 0, 1});
     const bool second = memmem(text + begin, source_offset(at) - begin, ": ", 2) != NULL;
     if (second || !last || last->dash) {
-        diag_help(r->diag, diag_error(r->diag, at, "a `: ` within a value"), "quote the whole value");
+        diag_help(r->diag, diag_error(r->diag, at, "colon-in-value", "a `: ` within a value"), "quote the whole value");
     } else if (!colon) {
-        diag_help(r->diag, diag_error(r->diag, (struct span){r->source, last->line, last->column, 1}, "a key without a `:`"),
+        diag_help(r->diag, diag_error(r->diag, (struct span){r->source, last->line, last->column, 1}, "no-colon", "a key without a `:`"),
                   "a key and its value are written `key: value`");
     } else if (colon + 1 < text + end && colon[1] != ' ') {
-        diag_help(r->diag, diag_error(r->diag, (struct span){r->source, last->line, last->column, 1}, "a `:` without a space after it"),
+        diag_help(r->diag, diag_error(r->diag, (struct span){r->source, last->line, last->column, 1}, "no-space-after-colon", "a `:` without a space after it"),
                   "write `key: value`");
     } else if (!report_indent(r, at.line)) {
-        diag_help(r->diag, diag_error(r->diag, at, "a `:` where no key can stand"), "check the indentation, or quote the text");
+        diag_help(r->diag, diag_error(r->diag, at, "misplaced-colon", "a `:` where no key can stand"), "check the indentation, or quote the text");
     }
 }
 
@@ -187,10 +187,10 @@ static void report_token(const struct report *r, struct span at) {
     character_at(r, at, found);
     if (*found != '\t') {
         const char *what = *found == '`' ? "a backtick" : found;
-        diag_help(r->diag, diag_error(r->diag, at, "a value cannot start with %s", what), "quote the text");
+        diag_help(r->diag, diag_error(r->diag, at, "bad-start-of-value", "a value cannot start with %s", what), "quote the text");
         return;
     }
-    struct diagnostic *d = diag_error(r->diag, at, "a tab in the indentation");
+    struct diagnostic *d = diag_error(r->diag, at, "tab-in-indentation", "a tab in the indentation");
     const int count = source_open_levels(r->source, at.line, levels);
     const struct source_level *last = count > 0 ? &levels[count - 1] : NULL;
     if (last && last->column > 0) diag_help(r->diag, d, "YAML indents with spaces; line %u has %u", (unsigned)last->line + 1, (unsigned)last->column);
@@ -199,7 +199,7 @@ static void report_token(const struct report *r, struct span at) {
 
 static void report_start(const struct report *r, struct span at) {
     const bool directive = r->source->text[0] == '%';
-    struct diagnostic *d = diag_error(r->diag, at, directive ? "a scene cannot begin here" : "this does not belong to the scene before it");
+    struct diagnostic *d = diag_error(r->diag, at, "bad-document", directive ? "a scene cannot begin here" : "this does not belong to the scene before it");
     diag_help(r->diag, d, directive ? "remove the lines that start with %%, or put a line `---` after them" : "remove it, or what ends the scene above it");
 }
 
@@ -208,12 +208,12 @@ static void report_bracket(const struct report *r, const struct row *row) {
     char bracket[8];
     character_at(r, opened, bracket);
     if (source_offset(at) >= r->source->size) {
-        diag_help(r->diag, diag_error(r->diag, opened, "this `%s` is never closed", bracket), "add `%s`", *bracket == '[' ? "]" : "}");
+        diag_help(r->diag, diag_error(r->diag, opened, "unclosed-bracket", "this `%s` is never closed", bracket), "add `%s`", *bracket == '[' ? "]" : "}");
         return;
     }
     char found[8];
     character_at(r, at, found);
-    struct diagnostic *d = diag_error(r->diag, at, "%s", row->message);
+    struct diagnostic *d = diag_error(r->diag, at, "not-yaml", "%s", row->message);
     diag_help(r->diag, d, "%s", *found == ':' ? "add `,` before this key" : row->help);
     diag_related(r->diag, d, opened, "`%s` opens here", bracket);
 }
@@ -241,6 +241,6 @@ void problem_report(struct diagnostics *diag, const struct node_problem *problem
     case AT_CONTEXT: break;
     }
     const struct span at = row && row->remedy == AT_CONTEXT ? problem->context_at : problem->at;
-    struct diagnostic *d = diag_error(diag, at, "%s", row ? row->message : problem->text);
+    struct diagnostic *d = diag_error(diag, at, "not-yaml", "%s", row ? row->message : problem->text);
     if (row) diag_help(diag, d, "%s", row->help);
 }

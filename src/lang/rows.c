@@ -42,15 +42,15 @@ static bool check_row(struct checker *ck, const struct grammar_key *key, const s
                       const char *const names[3], check_item *check, double *out) {
     const struct node *n = node_resolve(node);
     if (n->kind != NODE_SEQUENCE) {
-        struct diagnostic *d = diag_error(ck->diag, node->span, "`%s`: expected %s, found %s", key->name, form, found_text(ck, node));
+        struct diagnostic *d = diag_error(ck->diag, node->span, "not-a-row", "`%s`: expected %s, found %s", key->name, form, found_text(ck, node));
         if (names && !diag_full(ck->diag)) help_other_form(ck, d, n, count, names);
         return false;
     }
     if (n->count != (uint32_t)count) {
         const bool numbers = n->count > 0 && all_scalars(n);
-        struct diagnostic *d = numbers ? diag_error(ck->diag, node->span, "`%s`: expected %s, found %u number%s", key->name, form,
+        struct diagnostic *d = numbers ? diag_error(ck->diag, node->span, "wrong-count", "`%s`: expected %s, found %u number%s", key->name, form,
                                                     (unsigned)n->count, n->count == 1 ? "" : "s")
-                                       : diag_error(ck->diag, node->span, "`%s`: expected %s, found %s", key->name, form, found_text(ck, node));
+                                       : diag_error(ck->diag, node->span, "not-a-row", "`%s`: expected %s, found %s", key->name, form, found_text(ck, node));
         if (numbers && names) help_missing(ck, d, n->count, count, names);
         else if (!numbers && n->count == 1) diag_help(ck->diag, d, "one pair of brackets is enough");
         return false;
@@ -72,7 +72,7 @@ bool check_vector(struct checker *ck, const struct grammar_key *key, const struc
     const char *form = key->type == GRAMMAR_FACTORS ? "a number or [x, y, z]" : "[x, y, z]";
     if (!check_row(ck, key, node, form, 3, names, check_number, v)) return false;
     if (key->type == GRAMMAR_DIRECTION && v[0] == 0.0 && v[1] == 0.0 && v[2] == 0.0) {
-        diag_help(ck->diag, diag_error(ck->diag, node->span, "`%s`: [0, 0, 0] is no direction", key->name),
+        diag_help(ck->diag, diag_error(ck->diag, node->span, "null-direction", "`%s`: [0, 0, 0] is no direction", key->name),
                   "any other vector will do, of any length");
         return false;
     }
@@ -92,7 +92,7 @@ bool check_matrix(struct checker *ck, const struct grammar_key *key, const struc
     const struct node *n = node_resolve(node);
     double rows[4][4] = {{0}, {0}, {0}, {0, 0, 0, 1}};
     if (n->kind != NODE_SEQUENCE || (n->count != 3 && n->count != 4) || all_scalars(n)) {
-        struct diagnostic *d = diag_error(ck->diag, node->span, "`%s`: expected three rows of four numbers, found %s",
+        struct diagnostic *d = diag_error(ck->diag, node->span, "not-a-matrix", "`%s`: expected three rows of four numbers, found %s",
                                           key->name, found_text(ck, node));
         diag_help(ck->diag, d, "as in [[1, 0, 0, 5], [0, 1, 0, 0], [0, 0, 1, 0]]");
         return false;
@@ -104,7 +104,7 @@ bool check_matrix(struct checker *ck, const struct grammar_key *key, const struc
     if (!ok) return false;
     if (rows[3][0] != 0 || rows[3][1] != 0 || rows[3][2] != 0 || rows[3][3] != 1) {
         const bool columns = rows[0][3] == 0 && rows[1][3] == 0 && rows[2][3] == 0 && rows[3][3] == 1;
-        struct diagnostic *d = diag_error(ck->diag, node->span, "`%s`: the fourth row of an affine map is [0, 0, 0, 1]", key->name);
+        struct diagnostic *d = diag_error(ck->diag, node->span, "not-affine", "`%s`: the fourth row of an affine map is [0, 0, 0, 1]", key->name);
         if (columns) diag_help(ck->diag, d, "the translation is the last column here: turn rows into columns");
         return false;
     }

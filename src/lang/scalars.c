@@ -102,7 +102,7 @@ static void help_scalar(struct checker *ck, struct diagnostic *d, const char *te
 static void report_no_number(struct checker *ck, const struct grammar_key *key, const struct node *node) {
     if (only_counted(ck, node->span)) return;
     const struct node *n = node_resolve(node);
-    struct diagnostic *d = diag_error(ck->diag, node->span, "`%s`: expected %s, found %s", key->name,
+    struct diagnostic *d = diag_error(ck->diag, node->span, "not-a-number", "`%s`: expected %s, found %s", key->name,
                                       wanted_number(key), found_text(ck, node));
     if (n->kind == NODE_SEQUENCE && n->count == 3)
         diag_note(ck->diag, d, "one number serves all three axes here; stretch the object by `scale` in its `transform`");
@@ -126,12 +126,12 @@ static bool parse_number(struct checker *ck, const struct grammar_key *key, cons
     }
     const double value = to_double(ck, n->text);
     if (has_leading_zero(n->text)) {
-        struct diagnostic *d = diag_error(ck->diag, node->span, "`%s`: a number with a leading zero, found %s", key->name, found_text(ck, node));
+        struct diagnostic *d = diag_error(ck->diag, node->span, "leading-zero", "`%s`: a number with a leading zero, found %s", key->name, found_text(ck, node));
         diag_help(ck->diag, d, "write %.17g; some readers of YAML take a leading zero for base 8", value);
         return false;
     }
     if (!isfinite(value)) {
-        diag_error(ck->diag, node->span, "`%s`: too large, numbers end at 1.8e308, found %s", key->name, found_text(ck, node));
+        diag_error(ck->diag, node->span, "too-large", "`%s`: too large, numbers end at 1.8e308, found %s", key->name, found_text(ck, node));
         return false;
     }
     *out = value;
@@ -151,7 +151,7 @@ static bool in_range(struct checker *ck, const struct grammar_key *key, const st
     const bool high = key->has_max && !(value <= key->max);
     if (!low && !high) return true;
     if (only_counted(ck, node->span)) return false;
-    struct diagnostic *d = diag_error(ck->diag, node->span, "`%s`: must be %s, found %s", key->name, range_text(ck, key), found_text(ck, node));
+    struct diagnostic *d = diag_error(ck->diag, node->span, "out-of-range", "`%s`: must be %s, found %s", key->name, range_text(ck, key), found_text(ck, node));
     if (high && key->type == GRAMMAR_SIZE)
         diag_help(ck->diag, d, "a square of that side would take %.3g GiB of memory", 12.0 * value * value / (1 << 30));
     return false;
@@ -168,7 +168,7 @@ bool check_integer(struct checker *ck, const struct grammar_key *key, const stru
     double value;
     if (!parse_number(ck, key, node, &value)) return false;
     if (value != floor(value)) {
-        diag_error(ck->diag, node->span, "`%s`: expected a whole number, found %s", key->name, found_text(ck, node));
+        diag_error(ck->diag, node->span, "not-whole", "`%s`: expected a whole number, found %s", key->name, found_text(ck, node));
         return false;
     }
     if (!in_range(ck, key, node, value)) return false;
@@ -184,7 +184,7 @@ bool check_boolean(struct checker *ck, const struct grammar_key *key, const stru
         *out = n->text[0] == 't';
         return true;
     }
-    struct diagnostic *d = diag_error(ck->diag, node->span, "`%s`: expected true or false, found %s", key->name, found_text(ck, node));
+    struct diagnostic *d = diag_error(ck->diag, node->span, "not-a-boolean", "`%s`: expected true or false, found %s", key->name, found_text(ck, node));
     static const char *const words[][2] = {{"yes", "true"}, {"on", "true"},   {"y", "true"},    {"1", "true"},
                                            {"no", "false"}, {"off", "false"}, {"n", "false"},   {"0", "false"},
                                            {"true", "true"}, {"false", "false"}};
@@ -208,7 +208,7 @@ static void report_no_choice(struct checker *ck, const struct grammar_key *key, 
         spelling_offer(&s, key->choices[i]);
         all = arena_format(ck->arena, "%s%s%s", all, i == 0 ? "" : key->choices[i + 1] ? ", " : " or ", key->choices[i]);
     }
-    struct diagnostic *d = diag_error(ck->diag, node->span, "`%s`: expected %s, found %s", key->name, all, found_text(ck, node));
+    struct diagnostic *d = diag_error(ck->diag, node->span, "not-a-choice", "`%s`: expected %s, found %s", key->name, all, found_text(ck, node));
     if (s.best) diag_help(ck->diag, d, "did you mean `%s`?", s.best);
 }
 
@@ -223,7 +223,7 @@ bool check_choice(struct checker *ck, const struct grammar_key *key, const struc
 bool check_text(struct checker *ck, const struct grammar_key *key, const struct node *node, const char **out) {
     const struct node *n = node_resolve(node);
     if (n->kind != NODE_SCALAR || n->count == 0) {
-        diag_error(ck->diag, node->span, "`%s`: expected a text, found %s", key->name, found_text(ck, node));
+        diag_error(ck->diag, node->span, "not-a-text", "`%s`: expected a text, found %s", key->name, found_text(ck, node));
         return false;
     }
     *out = n->text;

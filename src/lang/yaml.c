@@ -64,7 +64,7 @@ static struct span span_of_offset(const struct reader *rd, size_t offset) {
 static void keep_problem(struct reader *rd) {
     const yaml_parser_t *p = &rd->parser;
     if (p->error == YAML_MEMORY_ERROR) {
-        diag_failure(rd->diag, "%s: out of memory", rd->source->name);
+        diag_failure(rd->diag, "out-of-memory", "%s: out of memory", rd->source->name);
         return;
     }
     rd->problem->text = p->problem ? p->problem : "not YAML";
@@ -95,13 +95,13 @@ static bool next_event(struct reader *rd) {
 static bool count_node(struct reader *rd, struct span span) {
     rd->values += 1.0;
     if (++rd->nodes <= rd->limits->nodes) return true;
-    diag_error(rd->diag, span, "more than %zu values in one file (the limit `values`)", rd->limits->nodes);
+    diag_error(rd->diag, span, "limit-values", "more than %zu values in one file (the limit `values`)", rd->limits->nodes);
     return false;
 }
 
 static bool nesting_allowed(struct reader *rd, const struct node *node, unsigned height, const struct anchor *alias) {
     if (rd->nesting + height <= rd->limits->nesting) return true;
-    struct diagnostic *d = diag_error(rd->diag, node->span, "more than %u levels of nesting (the limit `nesting`)", rd->limits->nesting);
+    struct diagnostic *d = diag_error(rd->diag, node->span, "limit-nesting", "more than %u levels of nesting (the limit `nesting`)", rd->limits->nesting);
     if (alias) diag_related(rd->diag, d, alias->node->span, "`&%s` has %u of them", alias->name, alias->height);
     return false;
 }
@@ -123,7 +123,7 @@ static struct anchor *add_anchor(struct reader *rd, const yaml_char_t *name, str
 /* How the largest of the aliases comes to its size, from anchor to anchor. */
 static bool report_expansion(struct reader *rd, const struct anchor *largest) {
     enum { CHAIN = 5 };
-    struct diagnostic *d = diag_error(rd->diag, rd->beyond->span, "aliases make %.6g values of this file, more than %zu (the limit `values`)",
+    struct diagnostic *d = diag_error(rd->diag, rd->beyond->span, "limit-values", "aliases make %.6g values of this file, more than %zu (the limit `values`)",
                                       rd->values, rd->limits->nodes);
     int i = 0;
     for (const struct anchor *a = largest; a && i < CHAIN; a = a->largest, i++)
@@ -136,7 +136,7 @@ static bool report_no_anchor(struct reader *rd, const struct node *node, const c
     struct spelling s = spelling_begin(name);
     for (size_t i = 0; i < rd->anchors.capacity; i++)
         if (rd->anchors.slots[i].name) spelling_offer(&s, rd->anchors.slots[i].name);
-    struct diagnostic *d = diag_error(rd->diag, node->span, "no anchor `&%.100s` before this alias", name);
+    struct diagnostic *d = diag_error(rd->diag, node->span, "no-anchor", "no anchor `&%.100s` before this alias", name);
     if (!s.best) {
         diag_help(rd->diag, d, "it repeats what stands behind `&%.100s`; a text that starts with `*` needs quotes", name);
         return false;
@@ -152,7 +152,7 @@ static bool read_alias(struct reader *rd, struct node *node) {
     const struct anchor *a = table_find(&rd->anchors, name);
     if (!a) return report_no_anchor(rd, node, name);
     if (a->open) {
-        struct diagnostic *d = diag_error(rd->diag, node->span, "`*%s` stands inside the very node that it names", name);
+        struct diagnostic *d = diag_error(rd->diag, node->span, "alias-in-itself", "`*%s` stands inside the very node that it names", name);
         diag_related(rd->diag, d, a->node->span, "`&%s` is given here", name);
         return false;
     }
@@ -193,7 +193,7 @@ static void merge_begin(struct reader *rd, struct merge *merge, struct node *int
 static bool count_merged(struct reader *rd, struct span span) {
     enum { FREE = 100000, EACH = 4 };
     if (++rd->merged <= FREE + EACH * rd->nodes) return true;
-    struct diagnostic *d = diag_error(rd->diag, span, "merge keys (<<) have copied %zu pairs up to here, too many for a file of %zu values", rd->merged, rd->nodes);
+    struct diagnostic *d = diag_error(rd->diag, span, "limit-merged", "merge keys (<<) have copied %zu pairs up to here, too many for a file of %zu values", rd->merged, rd->nodes);
     diag_help(rd->diag, d, "use an alias for the whole, without <<");
     return false;
 }
@@ -226,7 +226,7 @@ static bool merge_value(struct reader *rd, struct merge *merge, const struct nod
         ok = node_resolve(item)->kind == NODE_MAPPING;
         if (ok && !merge_pairs(rd, merge, node_resolve(item))) return false;
     }
-    if (!ok) diag_error(rd->diag, value->span, "`<<` takes a mapping or a list of mappings, as in `<<: *base`");
+    if (!ok) diag_error(rd->diag, value->span, "bad-merge", "`<<` takes a mapping or a list of mappings, as in `<<: *base`");
     return ok;
 }
 
@@ -289,7 +289,7 @@ static bool read_collection(struct reader *rd, struct node *node, bool mapping) 
 static bool tag_allowed(struct reader *rd, const yaml_char_t *tag, const struct node *node) {
     const char *core = "tag:yaml.org,2002:";
     if (!tag || strcmp((const char *)tag, "!") == 0 || strncmp((const char *)tag, core, strlen(core)) == 0) return true;
-    struct diagnostic *d = diag_error(rd->diag, node->span, "a scene has no tags, found `%.40s`", (const char *)tag);
+    struct diagnostic *d = diag_error(rd->diag, node->span, "tag", "a scene has no tags, found `%.40s`", (const char *)tag);
     diag_help(rd->diag, d, "remove what starts with `!`");
     return false;
 }
@@ -299,7 +299,7 @@ static bool read_scalar(struct reader *rd, struct node *node) {
     const char *text = (const char *)e->data.scalar.value;
     const size_t size = e->data.scalar.length;
     if (memchr(text, '\0', size)) {
-        diag_help(rd->diag, diag_error(rd->diag, node->span, "a text with the character NUL in it"), "remove the `\\0`");
+        diag_help(rd->diag, diag_error(rd->diag, node->span, "bad-character", "a text with the character NUL in it"), "remove the `\\0`");
         return false;
     }
     node->kind = NODE_SCALAR;
@@ -359,7 +359,7 @@ static struct node *read_node(struct reader *rd) {
 /* ---- Documents ---- */
 
 static bool report_empty(struct reader *rd) {
-    struct diagnostic *d = diag_error(rd->diag, (struct span){rd->source, 0, 0, 1}, "the file is empty");
+    struct diagnostic *d = diag_error(rd->diag, (struct span){rd->source, 0, 0, 1}, "empty-file", "the file is empty");
     diag_help(rd->diag, d, "the smallest scene is:  scene: [{sphere: {}}]");
     return false;
 }
@@ -370,7 +370,7 @@ static bool tag_directives_allowed(struct reader *rd) {
     const char *at = rd->source->text, *end = at + rd->source->size;
     for (int i = 0; (at = memmem(at, (size_t)(end - at), "%TAG", 4)); at++)
         if (++i > MANY) {
-            diag_error(rd->diag, (struct span){rd->source, 0, 0, 1}, "more than %d times %%TAG: a scene has no tags", MANY);
+            diag_error(rd->diag, (struct span){rd->source, 0, 0, 1}, "bad-document", "more than %d times %%TAG: a scene has no tags", MANY);
             return false;
         }
     return true;
@@ -383,7 +383,7 @@ static struct node *read_stream(struct reader *rd) {
     struct node *root = read_node(rd);
     if (!root || !next_event(rd) /* document end */ || !next_event(rd)) return NULL;
     if (rd->event.type != YAML_STREAM_END_EVENT) {
-        struct diagnostic *d = diag_error(rd->diag, span_at(rd, rd->event.start_mark), "a second document in the file");
+        struct diagnostic *d = diag_error(rd->diag, span_at(rd, rd->event.start_mark), "second-document", "a second document in the file");
         diag_help(rd->diag, d, "a scene is one document: it would be ignored; remove it, or this `---`");
         return NULL;
     }
@@ -396,7 +396,7 @@ struct node *node_parse(struct arena *arena, struct diagnostics *diag, const str
                         const struct node_limits *limits, struct node_problem *problem) {
     struct reader rd = {.arena = arena, .diag = diag, .source = source, .limits = limits, .problem = problem};
     if (!yaml_parser_initialize(&rd.parser)) {
-        diag_failure(diag, "%s: out of memory", source->name);
+        diag_failure(diag, "out-of-memory", "%s: out of memory", source->name);
         return NULL;
     }
     yaml_parser_set_input_string(&rd.parser, (const unsigned char *)source->text, source->size);

@@ -24,7 +24,7 @@ static void node_build(struct builder *b, const struct object_value *node, affin
         shape_build(b, object_object(node, key), bounds, world_from_node, material_index(b, material));
         return;
     }
-    if (bounds) diag_help(b->diag, diag_error(b->diag, bounds->span, "`bounds` cut a quadric; a group has none"), "move them to the quadric");
+    if (bounds) diag_help(b->diag, diag_error(b->diag, bounds->span, "bounds-of-no-quadric", "`bounds` cut a quadric; a group has none"), "move them to the quadric");
     const struct object_list members = object_list(node, key);
     for (uint32_t i = 0; i < members.count; i++) node_build(b, members.items[i], world_from_node, material);
 }
@@ -32,7 +32,7 @@ static void node_build(struct builder *b, const struct object_value *node, affin
 /* Warns of a picture that is the background alone, or black objects. */
 static void warn_nothing_seen(struct builder *b, const struct object_value *file) {
     if (b->scene->primitives.count == 0) {
-        struct diagnostic *d = diag_warning(b->diag, object_span(file, KEY_FILE_SCENE), "no objects: only the background will be seen");
+        struct diagnostic *d = diag_warning(b->diag, object_span(file, KEY_FILE_SCENE), "no-objects", "no objects: only the background will be seen");
         diag_help(b->diag, d, "add one, as in `- sphere: {}`");
     } else {
         lights_check(b, file);

@@ -53,7 +53,7 @@ void settings_build(struct builder *b, const struct object_value *file) {
     scene->highlight_always = object_choice(render, KEY_RENDER_HIGHLIGHT) == CHOICE_RENDER_HIGHLIGHT_ALWAYS;
     const char *wrong = monge_settings_check(s);
     if (!wrong) return;
-    struct diagnostic *d = diag_error(b->diag, object_span(image, KEY_IMAGE_SIZE), "%s", wrong);
+    struct diagnostic *d = diag_error(b->diag, object_span(image, KEY_IMAGE_SIZE), "image-too-large", "%s", wrong);
     diag_help(b->diag, d, "%u x %u would take %.3g GiB", (unsigned)s->width, (unsigned)s->height, 12.0 * s->width * s->height / (1 << 30));
 }
 
@@ -68,13 +68,13 @@ static void camera_check(struct builder *b, const struct object_value *object, c
     const vec3 view = camera->has_direction ? camera->direction : vec3_sub(camera->look_at, camera->eye);
     if (!camera->has_direction && !(camera->has_eye && camera->has_look_at)) return;
     if (!(vec3_max_abs(view) > 0.0)) {
-        struct diagnostic *d = diag_error(b->diag, object_span(object, KEY_CAMERA_LOOK_AT), "`look_at` is where `eye` is: no direction to look in");
+        struct diagnostic *d = diag_error(b->diag, object_span(object, KEY_CAMERA_LOOK_AT), "no-view-direction", "`look_at` is where `eye` is: no direction to look in");
         diag_related(b->diag, d, object_span(object, KEY_CAMERA_EYE), "`eye` is given here");
         return;
     }
     if (!camera->has_up || !parallel(view, camera->up)) return;
     const vec3 n = vec3_abs(vec3_normalize(view));
-    struct diagnostic *d = diag_error(b->diag, object_span(object, KEY_CAMERA_UP), "`up` points along the view, which leaves open what is up");
+    struct diagnostic *d = diag_error(b->diag, object_span(object, KEY_CAMERA_UP), "up-along-view", "`up` points along the view, which leaves open what is up");
     diag_help(b->diag, d, "%s will do", n.y > 0.9 ? "[0, 0, -1]" : "[0, 1, 0]");
 }
 
@@ -82,7 +82,7 @@ static void projection_check(struct builder *b, const struct object_value *objec
     const bool perspective = camera->projection == CAMERA_PERSPECTIVE;
     const int other = perspective ? KEY_CAMERA_HEIGHT : KEY_CAMERA_FOV;
     if (!object_has(object, other)) return;
-    struct diagnostic *d = diag_error(b->diag, object_span(object, other), "`%s` is for %s camera", object->kind->keys[other].name,
+    struct diagnostic *d = diag_error(b->diag, object_span(object, other), "wrong-projection", "`%s` is for %s camera", object->kind->keys[other].name,
                                       perspective ? "an orthographic" : "a perspective");
     diag_help(b->diag, d, perspective ? "use `fov`, or add `projection: orthographic`" : "use `height`, or remove `projection: orthographic`");
 }
@@ -149,7 +149,7 @@ void lights_check(struct builder *b, const struct object_value *file) {
     for (uint32_t i = 0; i < scene->light_count; i++) ambient_alone &= scene->lights[i].kind == LIGHT_AMBIENT;
     for (uint32_t i = 0; i < scene->primitives.count; i++)
         if (!looks_black(scene, &scene->materials[scene->primitives.info[i].material])) return;
-    struct diagnostic *d = diag_warning(b->diag, object_span(file, KEY_FILE_LIGHTS), scene->light_count == 0 ? "no light: everything will be black" : "no light that any material gives back: everything will be black");
+    struct diagnostic *d = diag_warning(b->diag, object_span(file, KEY_FILE_LIGHTS), "no-light", scene->light_count == 0 ? "no light: everything will be black" : "no light that any material gives back: everything will be black");
     if (ambient_alone) diag_help(b->diag, d, "give the materials an `ambient` colour, or add a point light");
     else diag_help(b->diag, d, "add one, or remove `lights` for the default ones");
 }
@@ -168,7 +168,7 @@ static struct material material_of(struct builder *b, const struct object_value 
     const vec3 sum = vec3_add(m.reflection, m.refraction);
     const double most = sum.x > sum.y ? (sum.x > sum.z ? sum.x : sum.z) : (sum.y > sum.z ? sum.y : sum.z);
     if (most > 1.0 + 1e-9 && !object->failed) {
-        struct diagnostic *d = diag_error(b->diag, object_span(object, KEY_MATERIAL_REFRACTION), "`reflection` and `refraction` add up to %g: more light than comes in", most);
+        struct diagnostic *d = diag_error(b->diag, object_span(object, KEY_MATERIAL_REFRACTION), "too-much-light", "`reflection` and `refraction` add up to %g: more light than comes in", most);
         diag_help(b->diag, d, "their sum is at most 1");
         diag_related(b->diag, d, object_span(object, KEY_MATERIAL_REFLECTION), "`reflection` is given here");
     }

@@ -46,7 +46,7 @@ static void add_info(struct builder *b, const struct placement *at, enum primiti
 static bool make_room(struct builder *b, const struct placement *at, void **array, uint32_t **number, uint32_t count,
                       uint32_t *room, size_t size) {
     if (count >= PRIMITIVE_MAX - 1 || b->scene->primitives.count >= UINT32_MAX - 1) {
-        diag_error(b->diag, at->span, "more than %d primitives of one kind", PRIMITIVE_MAX - 1);
+        diag_error(b->diag, at->span, "limit-objects", "more than %d primitives of one kind", PRIMITIVE_MAX - 1);
         return false;
     }
     uint32_t number_room = *room;
@@ -103,7 +103,7 @@ static bool between(struct builder *b, const struct object_value *shape, int fro
     const vec3 axis = vec3_scale(vec3_sub(to, from), 1.0 / (z_to - z_from));
     if (!(vec3_max_abs(axis) > 0.0)) {
         const struct span span = object_has(shape, to_key) ? object_span(shape, to_key) : object_span(shape, from_key);
-        struct diagnostic *d = diag_error(b->diag, span, "`to` is where `from` is: %s has a length", shape->kind->title);
+        struct diagnostic *d = diag_error(b->diag, span, "no-length", "`to` is where `from` is: %s has a length", shape->kind->title);
         if (!object_has(shape, to_key)) diag_help(b->diag, d, "`to` is [%g, %g, %g] unless it is given", to.x, to.y, to.z);
         if (!object_has(shape, from_key)) diag_help(b->diag, d, "`from` is [%g, %g, %g] unless it is given", from.x, from.y, from.z);
         return false;
@@ -121,7 +121,7 @@ static bool corners(struct builder *b, const struct object_value *box, int min_k
     const char *axis = !(min.x < max.x) ? "x" : !(min.y < max.y) ? "y" : !(min.z < max.z) ? "z" : NULL;
     if (!axis) return true;
     const struct span span = object_has(box, max_key) ? object_span(box, max_key) : object_span(box, min_key);
-    struct diagnostic *d = diag_error(b->diag, span, "`max` must be greater than `min` in %s", axis);
+    struct diagnostic *d = diag_error(b->diag, span, "min-over-max", "`max` must be greater than `min` in %s", axis);
     if (!object_has(box, max_key)) diag_help(b->diag, d, "`max` is [%g, %g, %g] unless it is given", max.x, max.y, max.z);
     else if (!object_has(box, min_key)) diag_help(b->diag, d, "`min` is [%g, %g, %g] unless it is given", min.x, min.y, min.z);
     else diag_help(b->diag, d, "here [%g, %g, %g] to [%g, %g, %g]", min.x, min.y, min.z, max.x, max.y, max.z);
@@ -153,7 +153,7 @@ static const struct quadric_form *quadric_form_build(struct builder *b, const st
     form.constant = object_number(quadric, KEY_QUADRIC_CONSTANT);
     scale_terms(&form);
     if (!any) {
-        struct diagnostic *d = diag_error(b->diag, quadric->span, "a quadric without any of x, y and z has no surface");
+        struct diagnostic *d = diag_error(b->diag, quadric->span, "no-surface", "a quadric without any of x, y and z has no surface");
         diag_help(b->diag, d, "as in {xx: 1, yy: 1, zz: 1, constant: -1}, a sphere");
         return NULL;
     }
@@ -220,7 +220,7 @@ static bool placement_of(struct builder *b, const struct object_value *shape, co
 }
 
 static void report_out_of_range(struct builder *b, const struct object_value *shape) {
-    struct diagnostic *d = diag_error(b->diag, shape->span, "%s is flattened, or its size or place is out of range", shape->kind->title);
+    struct diagnostic *d = diag_error(b->diag, shape->span, "flat-transform", "%s is flattened, or its size or place is out of range", shape->kind->title);
     diag_help(b->diag, d, "its sizes and transforms together must lie within 1e-100 to 1e100");
 }
 
@@ -230,7 +230,7 @@ void shape_build(struct builder *b, const struct object_value *shape, const stru
     affine node_from_object, object_from_world;
     if (shape->failed) return;
     if (bounds && shape->kind != &grammar_kinds[KIND_QUADRIC]) {
-        struct diagnostic *d = diag_error(b->diag, bounds->span, "`bounds` cut a quadric; %s has none", shape->kind->title);
+        struct diagnostic *d = diag_error(b->diag, bounds->span, "bounds-of-no-quadric", "`bounds` cut a quadric; %s has none", shape->kind->title);
         diag_help(b->diag, d, "remove them, or write the shape as a `quadric`");
         return;
     }

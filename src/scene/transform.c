@@ -11,7 +11,7 @@ static void warn_radians(struct builder *b, const struct object_value *rotate, i
     const double value = fabs(object_number(rotate, key));
     for (size_t i = 0; i < sizeof angles / sizeof *angles; i++)
         if (fabs(value - angles[i].radians) < 0.002) {
-            struct diagnostic *d = diag_warning(b->diag, object_span(rotate, key), "an angle of %g degrees looks like %s in radians",
+            struct diagnostic *d = diag_warning(b->diag, object_span(rotate, key), "looks-like-radians", "an angle of %g degrees looks like %s in radians",
                                                 object_number(rotate, key), angles[i].name);
             diag_help(b->diag, d, "angles are in degrees: did you mean %s%s?", object_number(rotate, key) < 0 ? "-" : "", angles[i].deg);
         }
@@ -48,11 +48,11 @@ static void report_singular(struct builder *b, const struct object_value *step, 
     const vec3 v = key == KEY_STEP_SCALE ? object_vec3(step, key) : vec3_all(1);
     const bool flat = v.x == 0 || v.y == 0 || v.z == 0;
     if (!flat && (key == KEY_STEP_SCALE || !(vec3_max_abs(affine_column(map, 3)) < 1e100))) {
-        struct diagnostic *d = diag_error(b->diag, object_span(step, key), "this `%s` is out of range", name);
+        struct diagnostic *d = diag_error(b->diag, object_span(step, key), "flat-transform", "this `%s` is out of range", name);
         diag_help(b->diag, d, "its numbers must lie within 1e-100 to 1e100");
         return;
     }
-    struct diagnostic *d = diag_error(b->diag, object_span(step, key), "this `%s` has no inverse", name);
+    struct diagnostic *d = diag_error(b->diag, object_span(step, key), "flat-transform", "this `%s` has no inverse", name);
     diag_help(b->diag, d, flat ? "a factor of 0 flattens the object; for something flat use `square` or `disc`" : "it flattens the object, or its numbers are out of range");
 }
 

@@ -538,7 +538,7 @@ static void errors_of_an_earlier_scene_do_not_stop_this_one(void **state) {
     (void)state;
     struct loaded l;
     load_good(&l, "scene: [{sphere: {}}]");
-    diag_error(&l.diag, (struct span){0}, "of another file");
+    diag_error(&l.diag, (struct span){0}, "code", "of another file");
     assert_true(scene_build(&l.arena, &l.diag, l.file, &l.scene));
     unload(&l);
 }
