@@ -267,6 +267,12 @@ static const char *type_text(const struct node *key) {
     if (strcmp(type, "amount") == 0) return "number or color";
     if (strcmp(type, "size") == 0) return "`[width, height]`";
     if (strcmp(type, "matrix") == 0) return "rows of four numbers";
+    if (strcmp(type, "any") == 0) return "any value";
+    if (strcmp(type, "values") == 0) return of ? arena_format(&arena, "names, each with a value or a %s", link) : "names, each with a value";
+    if (strcmp(type, "ranges") == 0) return arena_format(&arena, "variables, each with a count, a list or a %s", link);
+    if (strcmp(type, "condition") == 0) return "expression, true or false";
+    if (strcmp(type, "name") == 0) return arena_format(&arena, "name of a %s", link);
+    if (strcmp(type, "files") == 0) return "path, or list of paths";
     if (strcmp(type, "color") == 0 && of) return arena_format(&arena, "color or %s", link);
     if (strcmp(type, "choice") != 0) return type;
     char *words = "";

@@ -158,7 +158,7 @@ static bool check_value(struct checker *ck, const struct grammar_key *key, const
     case GRAMMAR_OBJECT: return check_mapping_value(ck, key, node, out);
     case GRAMMAR_LIST: return check_list_of(ck, key, node, &out->list);
     case GRAMMAR_MAP: return check_map_of(ck, key, node, &out->list);
-    case GRAMMAR_LATER: break;
+    default: break;
     }
     return false;
 }
@@ -206,7 +206,7 @@ static bool check_pair(struct checker *ck, struct object_value *object, struct m
         report_twice(ck, key, name, mapping->given[index]);
         return false;
     }
-    if (key->type == GRAMMAR_LATER) {
+    if (key->type >= GRAMMAR_ANY) {
         diag_error(ck->diag, name->span, "not-there-yet", "`%s` is not there yet: %s", key->name, key->doc);
         return false;
     }

@@ -21,6 +21,12 @@ enum grammar_type {
     GRAMMAR_OBJECT,    /* a mapping of kind `of` */
     GRAMMAR_LIST,      /* a list of kind `of` */
     GRAMMAR_MAP,       /* names, each with a mapping of kind `of` */
+    GRAMMAR_ANY,       /* any value, given a meaning where it is used */
+    GRAMMAR_VALUES,    /* names, each with any value; with `of` param also with that mapping */
+    GRAMMAR_RANGES,    /* loop variables, each with a count, a list or a range */
+    GRAMMAR_CONDITION, /* an expression that is true or false */
+    GRAMMAR_NAME,      /* the name of one of kind `of` */
+    GRAMMAR_FILES,     /* a path, or a list of paths */
     GRAMMAR_LATER,     /* a word of the language that this version does not have yet */
 };
 

@@ -50,7 +50,14 @@ struct quadric {
     const struct quadric_form *form; /* shared by primitives of the same form */
 };
 
-enum primitive_kind { PRIMITIVE_SPHERE, PRIMITIVE_FLAT, PRIMITIVE_QUADRIC };
+/* A geometry, placed: one of the scene's sets of primitives that stand in a space of their own. */
+struct instance {
+    affine object_from_world, world_from_object; /* object space: that of the geometry */
+    uint32_t geometry;                           /* index into the scene's geometries */
+    uint32_t material;                           /* of its primitives that have MATERIAL_INHERITED */
+};
+
+enum primitive_kind { PRIMITIVE_SPHERE, PRIMITIVE_FLAT, PRIMITIVE_QUADRIC, PRIMITIVE_INSTANCE };
 
 /* Names one primitive: its kind in the two high bits, its index in the array of that kind below. */
 typedef uint32_t primitive_ref;
@@ -65,8 +72,11 @@ static inline uint32_t primitive_ref_index(primitive_ref ref) { return ref & (PR
 /* What the renderer asks of a primitive besides its shape. */
 struct primitive_info {
     primitive_ref ref;
-    uint32_t material; /* index into the scene's materials */
+    uint32_t material; /* index into the scene's materials; of a geometry's also MATERIAL_INHERITED */
 };
+
+/* The material of the innermost instance around that has one. */
+#define MATERIAL_INHERITED UINT32_MAX
 
 /* `number` below is the index into `info`; sphere_number[i] is the number of spheres[i], and so on. */
 struct primitives {
@@ -78,6 +88,8 @@ struct primitives {
     uint32_t *flat_number, flat_count;
     struct quadric *quadrics;
     uint32_t *quadric_number, quadric_count;
+    struct instance *instances;
+    uint32_t *instance_number, instance_count;
 };
 
 /* The number of the primitive that `ref` names. */
@@ -86,9 +98,10 @@ static inline uint32_t primitives_number(const struct primitives *p, primitive_r
     switch (primitive_ref_kind(ref)) {
     case PRIMITIVE_SPHERE: return p->sphere_number[index];
     case PRIMITIVE_FLAT: return p->flat_number[index];
-    case PRIMITIVE_QUADRIC: break;
+    case PRIMITIVE_QUADRIC: return p->quadric_number[index];
+    case PRIMITIVE_INSTANCE: break;
     }
-    return p->quadric_number[index];
+    return p->instance_number[index];
 }
 
 #endif

@@ -51,6 +51,8 @@ struct scene {
     struct material *materials;
     uint32_t material_count;
     struct primitives primitives;
+    struct primitives *geometries; /* what instances place; each holds instances of earlier ones alone */
+    uint32_t geometry_count;
 };
 
 /* Builds the scene that `file` describes. Shapes are in file order; groups and transforms are
