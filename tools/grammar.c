@@ -39,7 +39,7 @@ static struct source *read_source(const char *folder, const char *file) {
 static const struct node *read_file(const char *folder, const char *file) {
     const struct node_limits limits = {20, 100000};
     struct node_problem problem = {0};
-    const struct node *root = node_parse(&arena, &diag, read_source(folder, file), &limits, &problem);
+    const struct node *root = node_parse(&arena, &diag, read_source(folder, file), &limits, NULL, &problem);
     if (!root) {
         if (problem.text) diag_error(&diag, problem.at, "not-yaml", "%s", problem.text);
         diag_print(&diag, stderr);

@@ -2,6 +2,7 @@
 
 #include <stdalign.h>
 #include <stdarg.h>
+#include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -20,21 +21,27 @@ struct arena_block {
 };
 
 static _Noreturn void arena_full(struct arena *arena) {
+    while (arena->parent) arena = arena->parent;
     if (arena->on_full) longjmp(*arena->on_full, 1);
     fputs("out of memory\n", stderr);
     abort();
+}
+
+static bool has_room(const struct arena *arena, size_t bytes) {
+    for (; arena; arena = arena->parent)
+        if (arena->limit && (bytes > arena->limit || arena->total > arena->limit - bytes)) return false;
+    return true;
 }
 
 static struct arena_block *arena_grow(struct arena *arena, size_t size) {
     const size_t room = size > ARENA_BLOCK_SIZE ? size : ARENA_BLOCK_SIZE;
     if (room > SIZE_MAX - sizeof(struct arena_block)) arena_full(arena);
     const size_t bytes = sizeof(struct arena_block) + room;
-    if (arena->limit && (bytes > arena->limit || arena->total > arena->limit - bytes)) arena_full(arena);
-    struct arena_block *block = malloc(bytes);
+    struct arena_block *block = has_room(arena, bytes) ? malloc(bytes) : NULL;
     if (!block) arena_full(arena);
     *block = (struct arena_block){.next = arena->head, .size = room};
     arena->head = block;
-    arena->total += bytes;
+    for (struct arena *a = arena; a; a = a->parent) a->total += bytes;
     return block;
 }
 
@@ -80,7 +87,7 @@ void arena_release(struct arena *arena, struct arena_mark mark) {
     while (arena->head != mark.block) {
         struct arena_block *block = arena->head;
         arena->head = block->next;
-        arena->total -= sizeof *block + block->size;
+        for (struct arena *a = arena; a; a = a->parent) a->total -= sizeof *block + block->size;
         free(block);
     }
     if (arena->head) arena->head->used = mark.used;

@@ -3,7 +3,8 @@
  *     head -> [block: used |####......| ] -> [older block] -> ...
  *
  * An allocation never returns NULL. When memory runs out, or the arena would grow past its limit,
- * arena_alloc leaves by longjmp to `on_full`, which the owner has set; without one it aborts. */
+ * arena_alloc leaves by longjmp to `on_full`, which the owner has set; without one it aborts. Arenas
+ * with a parent count against its limit as well, and leave by its way. */
 #ifndef MONGE_BASE_ARENA_H
 #define MONGE_BASE_ARENA_H
 
@@ -14,9 +15,10 @@ struct arena_block;
 
 struct arena {
     struct arena_block *head;
-    size_t total;     /* bytes taken from the system */
-    size_t limit;     /* 0: none */
-    jmp_buf *on_full; /* may be NULL */
+    size_t total;         /* bytes taken from the system, those of its children too */
+    size_t limit;         /* 0: none */
+    jmp_buf *on_full;     /* may be NULL */
+    struct arena *parent; /* NULL: none; outlives the arena */
 };
 
 /* An empty arena is a zeroed struct arena, with limit and on_full as wanted. */

@@ -1,71 +1,66 @@
 /* Checks nodes against the grammar's tables and makes typed values of them. One function for each
- * form of the language; which keys there are, only the tables know. */
+ * form of the language; which keys there are, only the tables know. Where a name is not known yet
+ * (ck->waiting), false is returned and nothing reported. */
 #include <assert.h>
 #include <string.h>
 
 #include "lang/checker.h"
-#include "lang/problem.h"
-
-static struct object_value *check_object(struct checker *ck, const struct grammar_kind *kind, const struct node *node);
-
-/* ---- Aliases ----
- * What an anchor names is read once in each role: the time and the memory follow the text, not what its
- * aliases would make of it. */
-
-static struct reading *find_reading(const struct checker *ck, const struct node *node, const void *as) {
-    struct reading *r = node->anchor < ck->readings_room ? ck->readings[node->anchor] : NULL;
-    while (r && r->as != as) r = r->next;
-    return r;
-}
-
-static void keep_reading(struct checker *ck, const struct node *node, struct reading reading) {
-    if (!node->anchor) return;
-    if (node->anchor >= ck->readings_room) {
-        const uint32_t room = 2 * node->anchor;
-        struct reading **larger = arena_array(ck->arena, room, sizeof *larger);
-        if (ck->readings) memcpy(larger, ck->readings, ck->readings_room * sizeof *larger);
-        ck->readings = larger;
-        ck->readings_room = room;
-    }
-    struct reading *kept = arena_alloc(ck->arena, sizeof *kept);
-    *kept = reading;
-    kept->next = ck->readings[node->anchor];
-    ck->readings[node->anchor] = kept;
-}
-
-/* The same object at the place of an alias; a named one is still the named one. */
-static struct object_value *read_again(struct checker *ck, const struct object_value *object, struct span span) {
-    struct object_value *again = arena_alloc(ck->arena, sizeof *again);
-    *again = *object;
-    again->span = span;
-    return again;
-}
 
 /* ---- Lists and names ---- */
 
-static bool check_list_of(struct checker *ck, const struct grammar_key *key, const struct node *node, struct object_list *out) {
-    const struct node *n = node_resolve(node), *first = n->first;
-    uint32_t count = n->count;
-    if (n->kind == NODE_MAPPING && key->single) {
-        first = node;
-        count = 1;
-    } else if (n->kind != NODE_SEQUENCE) {
+/* The items of a list, as they come. */
+struct collection {
+    const struct grammar_kind *kind;
+    const struct node *item; /* that is read */
+    struct object_list list;
+    uint32_t room;
+};
+
+static void collect(struct checker *ck, void *context) {
+    struct collection *c = context;
+    const struct node *when = node_resolve(c->item)->kind == NODE_MAPPING ? node_get(node_resolve(c->item), "when") : NULL;
+    bool holds = true;
+    if (ck->stopped || ++ck->steps > ck->input->limits.steps) return; /* reported by place.c, or with the next object */
+    if (when && grammar_find_key(c->kind, "when") >= 0 && loop_condition(ck, when, &holds) == QUANTITY_OK && !holds) return;
+    struct object_value *object = check_object(ck, c->kind, c->item);
+    if (!object) return;
+    if (c->list.count == c->room) {
+        c->room = c->room ? 2 * c->room : 4;
+        struct object_value **larger = arena_array(ck->arena, c->room, sizeof *larger);
+        if (c->list.count) memcpy(larger, c->list.items, c->list.count * sizeof *larger);
+        c->list.items = larger;
+    }
+    c->list.items[c->list.count++] = object;
+}
+
+static void collect_item(struct checker *ck, struct collection *c, const struct node *item) {
+    const struct binding *b = scope_stands_for(ck, item);
+    if (b && b->kind == BINDING_UNKNOWN) return;
+    const struct scope *outer = ck->scope;
+    if (b) ck->scope = b->scope;
+    c->item = b ? b->node : item;
+    const struct node *n = node_resolve(c->item);
+    const struct node *loop = n->kind == NODE_MAPPING && grammar_find_key(c->kind, "for") >= 0 ? node_get(n, "for") : NULL;
+    if (loop) loop_run(ck, loop, collect, c);
+    else collect(ck, c);
+    ck->scope = outer;
+}
+
+static bool check_list_of(struct checker *ck, const struct grammar_key *key, const struct node *node, struct value *out) {
+    const struct node *n = node_resolve(node);
+    const bool objects = key->of == &grammar_kinds[KIND_OBJECT], one = n->kind == NODE_MAPPING && key->single;
+    if (n->kind != NODE_SEQUENCE && !one) {
         report_no_list(ck, key, node);
         return false;
     }
-    const struct reading *known = find_reading(ck, n, key);
-    if (known) {
-        *out = known->list;
+    if (objects) {
+        out->node = node;
         return true;
     }
-    struct object_value **items = arena_array(ck->arena, count ? count : 1, sizeof *items);
-    uint32_t good = 0;
-    for (uint32_t i = 0; i < count; i++, first = first->next) {
-        struct object_value *item = check_object(ck, key->of, first);
-        if (item) items[good++] = item;
-    }
-    *out = (struct object_list){items, good};
-    keep_reading(ck, n, (struct reading){.as = key, .list = *out});
+    struct collection c = {.kind = key->of};
+    if (one) collect_item(ck, &c, node);
+    for (const struct node *item = one ? NULL : n->first; item; item = item->next) collect_item(ck, &c, item);
+    out->list = c.list;
     return true;
 }
 
@@ -75,71 +70,115 @@ static bool key_is_word(struct checker *ck, const struct grammar_kind *kind, con
     return false;
 }
 
-static void define(struct checker *ck, const struct node *name, struct object_value *object) {
-    struct definition *def = arena_alloc(ck->arena, sizeof *def);
-    *def = (struct definition){.name = node_resolve(name)->text, .object = object, .span = name->span};
-    table_put(ck->arena, &ck->names, def->name, def);
-    *ck->definitions_end = def;
-    ck->definitions_end = &def->next;
-}
-
-/* Stands for a definition that is no mapping, which was reported: its name is known all the same. */
-static struct object_value *failed_object(struct checker *ck, const struct grammar_kind *kind, struct span span) {
-    struct object_value *object = arena_alloc(ck->arena, sizeof *object);
-    *object = (struct object_value){.kind = kind, .span = span, .failed = true};
-    object->fields = arena_array(ck->arena, (size_t)kind->key_count, sizeof *object->fields);
-    return object;
-}
-
-static bool check_map_of(struct checker *ck, const struct grammar_key *key, const struct node *node, struct object_list *out) {
+/* The definition that a scalar names; NULL: reported, or not there yet. */
+static struct definition *find_definition(struct checker *ck, const struct grammar_key *key, const struct definitions *among, const struct node *node) {
     const struct node *n = node_resolve(node);
-    if (n->kind != NODE_MAPPING) {
-        report_no_map(ck, key, node);
-        return false;
-    }
-    struct object_value **items = arena_array(ck->arena, n->count ? n->count : 1, sizeof *items);
-    uint32_t good = 0;
-    for (const struct node *name = n->first; name; name = name->next->next) {
-        if (!key_is_word(ck, key->of, name)) continue;
-        const struct definition *before = table_find(&ck->names, node_resolve(name)->text);
-        if (before) {
-            struct diagnostic *d = diag_error(ck->diag, name->span, "defined-twice", "`%s` is defined twice", short_text(ck, before->name));
-            diag_related(ck->diag, d, before->span, "first defined here");
-            continue;
-        }
-        struct object_value *item = check_object(ck, key->of, name->next);
-        if (!item) item = failed_object(ck, key->of, name->span);
-        item->name = node_resolve(name)->text;
-        item->definition = good;
-        items[good++] = item;
-        define(ck, name, item);
-    }
-    *out = (struct object_list){items, good};
-    return true;
-}
-
-static struct object_value *check_name(struct checker *ck, const struct grammar_key *key, const struct node *node) {
-    struct definition *def = table_find(&ck->names, node_resolve(node)->text);
-    if (!def) {
-        if (!ck->names_lost) report_no_name(ck, key, node);
+    if (n->kind != NODE_SCALAR || n->count == 0) {
+        diag_error(ck->diag, node->span, "not-a-text", "`%s`: expected a name, found %s", key->name, found_text(ck, node));
         return NULL;
     }
-    def->used = true;
-    return def->object;
+    struct definition *def = table_find(&among->names, n->text);
+    if (def) return def;
+    if (ck->provisional && among != &ck->presets) ck->waiting = true;
+    else if (!ck->names_lost) report_no_name(ck, key, among, node);
+    return NULL;
+}
+
+static bool check_name(struct checker *ck, const struct grammar_key *key, const struct node *node, struct value *out) {
+    const bool template = key->of == &grammar_kinds[KIND_TEMPLATE], preset = key == &grammar_kinds[KIND_MATERIAL].keys[KEY_MATERIAL_PRESET];
+    out->definition = find_definition(ck, key, template ? &ck->templates : preset ? define_presets(ck) : &ck->materials, node);
+    return out->definition != NULL;
+}
+
+/* A material's keys that are not given are those of the one that it extends. False: reported. */
+static bool inherit(struct checker *ck, struct object_value *object) {
+    struct value *base = object->fields[KEY_MATERIAL_PRESET] ? object->fields[KEY_MATERIAL_PRESET] : object->fields[KEY_MATERIAL_EXTENDS];
+    if (!base) return true;
+    const struct object_value *from = define_read(ck, base->definition);
+    if (!from) return false;
+    for (int i = 0; i < object->kind->key_count; i++)
+        if (!object->fields[i]) object->fields[i] = from->fields[i];
+    object->failed |= from->failed;
+    return true;
 }
 
 /* ---- Values ---- */
 
 static bool check_mapping_value(struct checker *ck, const struct grammar_key *key, const struct node *node, struct value *out) {
-    const bool name = key->named && node_resolve(node)->kind == NODE_SCALAR;
-    out->object = name ? check_name(ck, key, node) : check_object(ck, key->of, node);
     out->is_object = true;
+    if (key->named && node_resolve(node)->kind == NODE_SCALAR && node_resolve(node)->count > 0) {
+        struct definition *def = find_definition(ck, key, &ck->materials, node);
+        out->object = def ? define_read(ck, def) : NULL;
+    } else {
+        out->object = check_object(ck, key->of, node);
+    }
     return out->object != NULL;
 }
 
-/* One value of the key's type. False: reported. */
+/* Names, each with a value that gets its meaning elsewhere. */
+static bool check_values(struct checker *ck, const struct grammar_key *key, const struct node *node, struct value *out) {
+    const struct node *n = node_resolve(node);
+    out->node = node;
+    if (n->kind != NODE_MAPPING) {
+        report_no_map(ck, key, node);
+        return false;
+    }
+    bool good = true;
+    for (const struct node *name = n->first; name; name = name->next->next) {
+        if (!node_is_null(name->next)) continue;
+        diag_help(ck->diag, diag_error(ck->diag, name->span, "no-value", "`%s` has no value", node_resolve(name)->kind == NODE_SCALAR ? short_text(ck, node_resolve(name)->text) : "it"), "give it one, or remove the key");
+        good = false;
+    }
+    return good;
+}
+
+static bool check_written(struct checker *ck, const struct grammar_key *key, const struct node *node, struct value *out);
+
+/* In a rehearsal: what stands for a value that is not known. */
+static void take_any(struct checker *ck, const struct grammar_key *key, struct value *out) {
+    out->is_object = key->type == GRAMMAR_OBJECT;
+    if (!out->is_object) return;
+    out->object = arena_alloc(ck->arena, sizeof *out->object);
+    *out->object = (struct object_value){.kind = key->of, .span = out->span, .failed = true};
+    out->object->fields = arena_array(ck->arena, (size_t)key->of->key_count, sizeof *out->object->fields);
+}
+
+static bool may_vary(const struct grammar_key *key) {
+    switch (key->type) {
+    case GRAMMAR_TEXT:
+    case GRAMMAR_ANY:
+    case GRAMMAR_VALUES:
+    case GRAMMAR_RANGES:
+    case GRAMMAR_CONDITION:
+    case GRAMMAR_FILES:
+    case GRAMMAR_MAP: return false;
+    default: return true;
+    }
+}
+
+/* One value of the key's type, or a variable that has one. False: reported, or not known yet. */
 static bool check_value(struct checker *ck, const struct grammar_key *key, const struct node *node, struct value *out) {
+    const struct binding *b = may_vary(key) ? scope_stands_for(ck, node) : NULL;
     out->span = node->span;
+    if (!b) return check_written(ck, key, node, out);
+    if (b->kind == BINDING_UNKNOWN) {
+        take_any(ck, key, out);
+        return ck->rehearsing;
+    }
+    if (key->type == GRAMMAR_LIST && key->of == &grammar_kinds[KIND_OBJECT]) {
+        out->node = node; /* place.c follows it */
+        return true;
+    }
+    if (!place_descend(ck, node)) return false;
+    const struct scope *outer = ck->scope;
+    ck->scope = b->scope;
+    const bool good = check_value(ck, key, b->node, out);
+    ck->scope = outer;
+    ck->depth--;
+    return good;
+}
+
+static bool check_written(struct checker *ck, const struct grammar_key *key, const struct node *node, struct value *out) {
     switch (key->type) {
     case GRAMMAR_NUMBER: return check_number(ck, key, node, &out->number);
     case GRAMMAR_INTEGER: return check_integer(ck, key, node, &out->number);
@@ -151,14 +190,20 @@ static bool check_value(struct checker *ck, const struct grammar_key *key, const
     case GRAMMAR_FACTORS: return check_vector(ck, key, node, &out->vector);
     case GRAMMAR_COLOR:
     case GRAMMAR_AMOUNT:
-        if (key->of && node_resolve(node)->kind == NODE_MAPPING) return check_mapping_value(ck, key, node, out);
+        if (key->of && node_resolve(node)->kind == NODE_MAPPING && !keyframes_is(node_resolve(node))) return check_mapping_value(ck, key, node, out);
         return check_color(ck, key, node, &out->vector);
     case GRAMMAR_SIZE: return check_size(ck, key, node, &out->vector);
     case GRAMMAR_MATRIX: return check_matrix(ck, key, node, &out->matrix);
     case GRAMMAR_OBJECT: return check_mapping_value(ck, key, node, out);
-    case GRAMMAR_LIST: return check_list_of(ck, key, node, &out->list);
-    case GRAMMAR_MAP: return check_map_of(ck, key, node, &out->list);
-    default: break;
+    case GRAMMAR_LIST: return check_list_of(ck, key, node, out);
+    case GRAMMAR_NAME: return check_name(ck, key, node, out);
+    case GRAMMAR_MAP:
+    case GRAMMAR_VALUES: return check_values(ck, key, node, out);
+    case GRAMMAR_ANY:
+    case GRAMMAR_RANGES:
+    case GRAMMAR_CONDITION:
+    case GRAMMAR_FILES: out->node = node; return true;
+    case GRAMMAR_LATER: break;
     }
     return false;
 }
@@ -206,12 +251,11 @@ static bool check_pair(struct checker *ck, struct object_value *object, struct m
         report_twice(ck, key, name, mapping->given[index]);
         return false;
     }
-    if (key->type >= GRAMMAR_ANY) {
+    if (key->type == GRAMMAR_LATER) {
         diag_error(ck->diag, name->span, "not-there-yet", "`%s` is not there yet: %s", key->name, key->doc);
         return false;
     }
     object->fields[index] = check_field(ck, object->kind, key, name);
-    if (!object->fields[index] && key->type == GRAMMAR_MAP) ck->names_lost = true;
     return object->fields[index] != NULL;
 }
 
@@ -286,27 +330,23 @@ static int key_index(const struct grammar_kind *kind, const struct node *key) {
     return word->kind == NODE_SCALAR ? grammar_find_key(kind, word->text) : -1;
 }
 
-/* The pairs whose key defines names, or the others. Returns whether a key is unknown. */
-static bool check_pairs(struct checker *ck, struct object_value *object, struct mapping *mapping, bool defining) {
+/* Returns whether a key is unknown. */
+static bool check_pairs(struct checker *ck, struct object_value *object, struct mapping *mapping) {
     bool unknown = false;
     for (const struct node *name = mapping->node->first; name; name = name->next->next) {
         const int index = key_index(object->kind, name);
         unknown |= index < 0;
-        if ((index >= 0 && object->kind->keys[index].type == GRAMMAR_MAP) != defining) continue;
         if (!check_pair(ck, object, mapping, name, index)) object->failed = true;
     }
     return unknown;
 }
 
-/* A mapping of the kind; what is wrong in it is reported and left out. NULL: it is no mapping. */
-static struct object_value *check_object(struct checker *ck, const struct grammar_kind *kind, const struct node *node) {
+struct object_value *check_object(struct checker *ck, const struct grammar_kind *kind, const struct node *node) {
     struct mapping mapping = {.node = node_resolve(node)};
     if (mapping.node->kind != NODE_MAPPING) {
         report_no_mapping(ck, kind, node);
         return NULL;
     }
-    const struct reading *known = find_reading(ck, mapping.node, kind);
-    if (known) return read_again(ck, known->object, node->span);
     assert(kind->key_count <= CHECK_MAX_KEYS);
     for (const struct node *name = mapping.node->first; name; name = name->next->next) {
         const int index = key_index(kind, name);
@@ -317,40 +357,11 @@ static struct object_value *check_object(struct checker *ck, const struct gramma
     object->span = node->span;
     object->fields = arena_array(ck->arena, (size_t)kind->key_count, sizeof *object->fields);
     mapping.object = object;
-    check_pairs(ck, object, &mapping, true); /* definitions come before uses, wherever they stand */
-    const bool unknown = check_pairs(ck, object, &mapping, false);
+    const bool unknown = check_pairs(ck, object, &mapping);
     check_required(ck, object, &mapping);
     check_alternatives(ck, object, &mapping, unknown);
     for (int i = 0; i < kind->key_count; i++)
         if (mapping.given[i]) check_companion(ck, object, &mapping, i);
-    keep_reading(ck, mapping.node, (struct reading){.as = kind, .object = object});
+    if (kind == &grammar_kinds[KIND_MATERIAL] && !inherit(ck, object)) object->failed = true;
     return object;
-}
-
-/* A definition that nothing refers to is probably a slip of the pen somewhere. */
-static void warn_unused(struct checker *ck) {
-    for (const struct definition *def = ck->definitions; def; def = def->next)
-        if (!def->used) {
-            const char *title = def->object->kind->title;
-            struct diagnostic *d = diag_warning(ck->diag, def->span, "unused-definition", "the %s `%s` is never used", strchr(title, ' ') + 1, short_text(ck, def->name));
-            diag_help(ck->diag, d, "use it, or remove it");
-        }
-}
-
-struct object_value *lang_read(struct arena *arena, struct diagnostics *diag, const struct source *source,
-                               const struct lang_limits *limits) {
-    const struct node_limits node_limits = {limits->nesting, limits->values};
-    struct node_problem problem = {0};
-    const unsigned errors = diag->errors;
-    struct checker ck = {.arena = arena, .diag = diag};
-    ck.definitions_end = &ck.definitions;
-    const struct node *root = node_parse(arena, diag, source, &node_limits, &problem);
-    if (!root) {
-        if (problem.text) problem_report(diag, &problem);
-        return NULL;
-    }
-    struct object_value *file = check_object(&ck, &grammar_kinds[KIND_FILE], root);
-    if (file) file->failed = diag->errors != errors;
-    if (file && !file->failed) warn_unused(&ck);
-    return file;
 }

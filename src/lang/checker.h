@@ -6,22 +6,51 @@
 #include "lang/description.h"
 #include "lang/lang.h"
 #include "lang/node.h"
+#include "lang/scope.h"
 
-/* A name that the file defines, for values that refer to it. */
+enum reading_state { READING_UNREAD, READING_UNDER_WAY, READING_DONE };
+
+/* A material or a template with a name, read when it is first needed. */
 struct definition {
+    const struct grammar_kind *kind;
     const char *name;
-    struct object_value *object;
     struct span span; /* of the name */
+    const struct node *node;
+    enum reading_state state;
+    struct object_value *object; /* DONE: failed where something of it was reported */
+    uint32_t number;             /* among its kind, from 0 */
     bool used;
-    struct definition *next; /* in the order of the file */
+    struct definition *next; /* in the order of the files */
 };
 
-/* What a node that an anchor names was read as, for its aliases. */
-struct reading {
-    const void *as;              /* the kind of an object, the key of a list */
-    struct object_value *object; /* of a mapping */
-    struct object_list list;     /* of a sequence */
-    struct reading *next;        /* of the same node, as something else */
+struct definitions {
+    struct table names;
+    struct definition *first, **end;
+    uint32_t count;
+};
+
+/* A parameter of the file: read when it is first needed. */
+struct parameter {
+    const char *name;
+    struct span span;        /* of the name */
+    const struct node *node; /* its value, or a mapping of kind param */
+    const struct node *given; /* the value from outside; NULL: none */
+    enum reading_state state;
+    struct binding binding; /* DONE */
+    bool used;
+    struct parameter *next;
+};
+
+/* A file that is read: the scene or what it includes. */
+struct unit {
+    const struct source *source;
+    const char *path; /* to find what it includes */
+    const struct unit *includer;
+    struct span include; /* where it was asked for */
+    uint64_t device, inode; /* the same file is read once */
+    struct node *root;
+    const struct node *declared; /* the last pair of the root whose names are known; NULL: none yet */
+    struct unit *next;
 };
 
 /* Where an object stands: the value of `key` in a mapping of `kind`. Both NULL: the file itself. */
@@ -31,14 +60,25 @@ struct surrounding {
 };
 
 struct checker {
-    struct arena *arena;
+    struct arena *arena;       /* of what is being read: the scratch of an object, or kept */
+    struct lang_memory *memory;
     struct diagnostics *diag;
+    const struct lang_input *input;
     struct surrounding around; /* the object that is checked now */
-    struct table names;        /* of definitions; one table serves as long as one kind is defined */
-    struct definition *definitions, **definitions_end;
-    struct reading **readings; /* by the numbers of anchors */
-    uint32_t readings_room;
-    bool names_lost; /* the definitions could not be read: nothing can be said of names */
+    const struct scope *scope; /* NULL: the file's alone */
+    struct definitions materials, templates, presets;
+    struct table parameters;
+    struct parameter *first_parameter, **parameters_end;
+    struct unit *units;
+    const struct object_value *animation; /* NULL: none, or not read yet */
+    bool names_lost;           /* definitions could not be read: nothing can be said of names */
+    bool provisional;          /* more names may come: what is not there yet is waited for */
+    bool waiting;              /* a name was looked for in vain while provisional */
+    bool rehearsing;           /* names and forms are checked; values are not known, nothing is placed */
+    bool stopped;              /* a limit was passed: evaluation is over */
+    bool moved;                /* the animation's variables were read */
+    unsigned depth;            /* of templates in use */
+    size_t steps, objects;     /* against the limits */
 };
 
 enum { CHECK_MAX_KEYS = 64 }; /* of a kind */
@@ -53,14 +93,19 @@ struct mapping {
 
 /* ---- scalars.c: one value each. False when it was reported as wrong; *out is then untouched. ---- */
 
+/* A number, also by an expression. */
 bool check_number(struct checker *ck, const struct grammar_key *key, const struct node *node, double *out);
 bool check_integer(struct checker *ck, const struct grammar_key *key, const struct node *node, double *out);
+/* Also the value of an expression: 0 is false. */
 bool check_boolean(struct checker *ck, const struct grammar_key *key, const struct node *node, int *out);
 bool check_choice(struct checker *ck, const struct grammar_key *key, const struct node *node, int *out);
 bool check_text(struct checker *ck, const struct grammar_key *key, const struct node *node, const char **out);
 
 /* Whether the text is a number of the language: decimal, of any size. */
 bool scalar_is_number(const char *text);
+
+/* The same, and its value; false also of a leading zero, and of what is too large. */
+bool scalar_number(struct checker *ck, const char *text, double *out);
 
 /* ---- rows.c ---- */
 
@@ -71,10 +116,70 @@ bool check_matrix(struct checker *ck, const struct grammar_key *key, const struc
 
 /* ---- colors.c ---- */
 
+/* Also an expression. */
 bool check_color(struct checker *ck, const struct grammar_key *key, const struct node *node, vec3 *out);
 
 /* Whether the text is a colour: "#rrggbb", "#rgb" or a CSS name. */
 bool color_parse(const char *text, vec3 *out);
+
+/* ---- check.c ---- */
+
+/* A mapping of the kind; what is wrong in it is reported and left out. NULL: it is no mapping. Lists of
+ * objects in it stay nodes, see place.c. */
+struct object_value *check_object(struct checker *ck, const struct grammar_kind *kind, const struct node *node);
+
+/* ---- define.c: names of the files ---- */
+
+/* Whether the node can name a variable: a word that nothing else has. Reported if not; `what` is "a parameter". */
+bool define_name_allowed(struct checker *ck, const char *what, const struct node *name);
+
+/* Makes the names known that the unit has so far, and reads what can be read of them. */
+void define_names(struct checker *ck, struct unit *unit);
+
+/* The definition's object, read now if it was not; NULL: reported, or not known yet. */
+struct object_value *define_read(struct checker *ck, struct definition *def);
+
+/* The parameter's value; NULL as above. */
+const struct binding *define_parameter(struct checker *ck, struct parameter *parameter);
+
+/* The presets, read at the first call. */
+struct definitions *define_presets(struct checker *ck);
+
+/* Warns of names that nothing uses, and reports values from outside for parameters that are not there. */
+void define_check_used(struct checker *ck);
+
+/* ---- include.c ---- */
+
+/* Reads the files that a value of `include` names, with their names. */
+void include_files(struct checker *ck, const struct unit *unit, const struct node *value);
+
+/* ---- loop.c ---- */
+
+/* Calls `turn` for every turn of the loop (the value of `for`), its variables in scope. */
+void loop_run(struct checker *ck, const struct node *loop, void (*turn)(struct checker *ck, void *context), void *context);
+
+/* "i = 3, tint = gold". */
+const char *loop_bindings_text(struct arena *arena, const struct scope *scope);
+
+/* Whether the `when` of a mapping holds. QUANTITY_OK: *out says. */
+enum quantity_result loop_condition(struct checker *ck, const struct node *node, bool *out);
+
+/* ---- place.c ---- */
+
+/* Reads an item of a list of objects and gives what it means to the sink. */
+void place_item(struct checker *ck, const struct node *node);
+void place_list(struct checker *ck, const struct node *list);
+
+/* What a parameter is where nobody sets it, of the value that it is declared with. */
+const struct node *place_default(const struct node *declared);
+
+/* One level further into what names stand for, ck->depth counts them: false, and reported, past the limit. */
+bool place_descend(struct checker *ck, const struct node *node);
+
+/* ---- keyframes.c ---- */
+
+bool keyframes_is(const struct node *node);
+enum quantity_result keyframes_read(struct checker *ck, const struct node *node, struct quantity *out);
 
 /* ---- mistakes.c: what is wrong with keys and mappings, and the smallest fix ---- */
 
@@ -93,7 +198,7 @@ void report_no_value(struct checker *ck, const struct grammar_key *key, const st
 void report_no_mapping(struct checker *ck, const struct grammar_kind *kind, const struct node *node);
 void report_no_list(struct checker *ck, const struct grammar_key *key, const struct node *node);
 void report_no_map(struct checker *ck, const struct grammar_key *key, const struct node *node);
-void report_no_name(struct checker *ck, const struct grammar_key *key, const struct node *node);
+void report_no_name(struct checker *ck, const struct grammar_key *key, const struct definitions *among, const struct node *node);
 void report_no_alternative(struct checker *ck, const struct object_value *object);
 
 #endif

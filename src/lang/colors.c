@@ -138,15 +138,29 @@ static bool check_color_list(struct checker *ck, const struct grammar_key *key, 
     return true;
 }
 
-static bool starts_like_number(const char *text) {
-    return isdigit((unsigned char)text[strspn(text, "+-.")]);
-}
-
+/* A grey, where an amount is wanted. */
 static bool check_grey(struct checker *ck, const struct grammar_key *key, const struct node *node, vec3 *out) {
     double all;
     if (!check_number(ck, key, node, &all)) return false;
     *out = vec3_all(all);
     return true;
+}
+
+/* What is neither a colour as such nor a list: an expression or keyframes. */
+static enum quantity_result read_color(struct checker *ck, const struct grammar_key *key, const struct node *node, vec3 *out) {
+    struct quantity q;
+    const enum quantity_result result = scope_quantity(ck, key->name, node, &q);
+    if (result == QUANTITY_UNKNOWN) *out = (vec3){key->value[0], key->value[1], key->value[2]};
+    if (result != QUANTITY_OK) return result;
+    if (q.count == 1 && key->type == GRAMMAR_AMOUNT) return check_grey(ck, key, node, out) ? QUANTITY_OK : QUANTITY_WRONG;
+    if (q.count != 3) return QUANTITY_NONE;
+    if (!check_color_range(ck, key, node, q.v)) return QUANTITY_WRONG;
+    *out = (vec3){q.v[0], q.v[1], q.v[2]};
+    return QUANTITY_OK;
+}
+
+static bool starts_like_number(const char *text) {
+    return isdigit((unsigned char)text[strspn(text, "+-.")]);
 }
 
 bool check_color(struct checker *ck, const struct grammar_key *key, const struct node *node, vec3 *out) {
@@ -155,6 +169,9 @@ bool check_color(struct checker *ck, const struct grammar_key *key, const struct
     if (n->kind == NODE_SCALAR && color_parse(n->text, out)) return true;
     const bool number = n->kind == NODE_SCALAR && starts_like_number(n->text);
     if (number && key->type == GRAMMAR_AMOUNT) return check_grey(ck, key, node, out);
+    const bool written = n->kind == NODE_SCALAR && (n->count == 0 || n->text[0] == '#' || scalar_is_number(n->text) || strncmp(n->text, "rgb(", 4) == 0);
+    const enum quantity_result result = written ? QUANTITY_NONE : read_color(ck, key, node, out);
+    if (result != QUANTITY_NONE) return result == QUANTITY_OK || (result == QUANTITY_UNKNOWN && ck->rehearsing);
     if (n->kind == NODE_SCALAR && n->count > 0 && !number) report_no_color_name(ck, key, node);
     else report_no_color(ck, key, node);
     return false;

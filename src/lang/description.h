@@ -14,6 +14,8 @@
 #include "lang/grammar.h"
 
 struct object_value;
+struct node;
+struct definition;
 
 /* Items may be shared by several lists, and fields by several objects: those behind aliases. */
 struct object_list {
@@ -30,7 +32,9 @@ struct value {
         const affine *matrix;        /* matrix */
         const char *text;            /* text */
         struct object_value *object; /* object; color or amount where is_object */
-        struct object_list list;     /* list, map */
+        struct object_list list;     /* list, but of objects */
+        const struct node *node;     /* lang/: list of objects, any, values, ranges, condition, files */
+        struct definition *definition; /* lang/: name */
     };
     bool is_object; /* a mapping stands where a colour might */
 };
@@ -38,8 +42,8 @@ struct value {
 struct object_value {
     const struct grammar_kind *kind;
     struct span span;
-    const char *name;      /* of an entry of a map, else NULL */
-    uint32_t definition;   /* of an entry of a map: its position there, from 0 */
+    const char *name;      /* of a definition, else NULL */
+    uint32_t definition;   /* of a definition: its number among its kind, from 0 */
     bool failed;           /* some key of it was reported as wrong; its field is NULL. Of the file: anything in it */
     struct value **fields; /* kind->key_count; NULL where not given */
 };

@@ -2,17 +2,73 @@
 #ifndef MONGE_LANG_LANG_H
 #define MONGE_LANG_LANG_H
 
+#include "base/hash.h"
 #include "lang/description.h"
 
 struct lang_limits {
-    unsigned nesting; /* collections within each other */
-    size_t values;    /* in the file, those behind aliases each time */
+    size_t file_bytes; /* of one file */
+    unsigned nesting;  /* collections within each other */
+    size_t values;     /* in one file, those behind aliases each time */
+    unsigned recursion; /* templates in use within each other */
+    size_t steps;      /* objects looked at, placed or not, and turns of loops */
+    size_t objects;    /* shapes placed, those of templates that stand once for many once */
 };
 
-/* Reads the scene in `source`, all its mistakes reported to `diag`. NULL when nothing can be said
- * of it as a scene: it is not YAML or not a mapping. Else the scene; diag tells whether it was right.
- * The result lives in `arena` and points into nothing else but the source. */
-struct object_value *lang_read(struct arena *arena, struct diagnostics *diag, const struct source *source,
-                               const struct lang_limits *limits);
+/* What becomes of a template in use, see lang_sink. */
+enum lang_use {
+    LANG_USE_PLACED, /* it is known and placed: its objects need not be read */
+    LANG_USE_READ,   /* read its objects, then close it */
+};
+
+/* Who takes the objects of the scene, in their order. The object_values live until the call returns;
+ * of a group or a use until it is closed. */
+struct lang_sink {
+    void *context;
+    void (*shape)(void *context, const struct object_value *object);
+    void (*open_group)(void *context, const struct object_value *object);
+    void (*close_group)(void *context);
+    /* `template` and its arguments, as a hash: uses of equal hash have equal objects. NULL: this use
+     * is like no other. */
+    enum lang_use (*open_use)(void *context, const struct object_value *object, const struct hash *contents);
+    bool (*close_use)(void *context); /* true: read the objects once more, and close again */
+    /* What was placed since the mark is taken back. */
+    void (*mark)(void *context);
+    void (*take_back)(void *context);
+};
+
+struct lang_define {
+    const char *name, *value; /* of `-D name=value` */
+};
+
+struct lang_input {
+    const struct source *source; /* the scene; outlives the reading */
+    const char *path;            /* of it, for what it includes; "-" or a name that is no file: the working folder */
+    struct lang_limits limits;
+    const struct lang_define *defines;
+    size_t define_count;
+    unsigned frame; /* of an animation, from 1; 0: the first */
+    bool untrusted; /* includes stay in the folder of the scene */
+    const struct lang_sink *sink;
+};
+
+/* The memory of a reading: zeroed, with `nodes` set up as the owner likes; the others are its children.
+ * When it is full, reading leaves by longjmp. */
+struct lang_memory {
+    struct arena nodes;   /* texts and trees of the files */
+    struct arena kept;    /* definitions, and the result */
+    struct arena scratch; /* the object that is read */
+};
+void lang_memory_free(struct lang_memory *memory);
+
+struct lang_result {
+    const struct object_value *file; /* NULL when nothing can be said of the text as a scene */
+    struct object_list materials;    /* all that have names, by their `definition` */
+    bool moves;                      /* an object depends on the frame */
+    unsigned frames;                 /* of the animation; 0: there is none */
+};
+
+/* Reads the scene, all its mistakes reported to `diag`; diag tells whether it was right. The objects go
+ * to the sink; the rest is the result, which lives in `memory`. */
+struct lang_result lang_read(struct lang_memory *memory, struct diagnostics *diag, const struct lang_input *input);
 
 #endif

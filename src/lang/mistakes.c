@@ -301,18 +301,32 @@ void report_no_map(struct checker *ck, const struct grammar_key *key, const stru
     else diag_help(ck->diag, d, "as in `%s: {gold: {...}}`", key->name);
 }
 
-void report_no_name(struct checker *ck, const struct grammar_key *key, const struct node *node) {
+/* `material: glass`, where there is a preset of that name. */
+static bool help_preset(struct checker *ck, struct diagnostic *d, const char *word) {
+    const struct definition *preset = table_find(&define_presets(ck)->names, word);
+    if (preset) diag_help(ck->diag, d, "write {preset: %s}", preset->name);
+    return preset != NULL;
+}
+
+void report_no_name(struct checker *ck, const struct grammar_key *key, const struct definitions *among, const struct node *node) {
     if (only_counted(ck, node->span)) return;
     const struct node *n = node_resolve(node);
+    const char *what = strchr(key->of->title, ' ') + 1;
     struct spelling s = spelling_begin(n->text);
-    for (const struct definition *def = ck->definitions; def; def = def->next) spelling_offer(&s, def->name);
-    struct diagnostic *d = diag_error(ck->diag, node->span, "unknown-name", "no %s is named `%s`", key->name, short_text(ck, n->text));
+    for (const struct definition *def = among->first; def; def = def->next) spelling_offer(&s, def->name);
+    struct diagnostic *d = diag_error(ck->diag, node->span, "unknown-name", "no %s is named `%s`", among == &ck->presets ? "preset" : what, short_text(ck, n->text));
     if (s.best) {
-        const struct definition *def = table_find(&ck->names, s.best);
+        const struct definition *def = table_find(&among->names, s.best);
         diag_help(ck->diag, d, "did you mean `%s`?", s.best);
-        diag_related(ck->diag, d, def->span, "`%s` is defined here", s.best);
-    } else if (!help_fitting(ck, d, key->of, n)) {
-        diag_help(ck->diag, d, ck->definitions ? "define it under `%ss:`" : "define it: `%ss: {%s: {...}}`", key->name, short_text(ck, n->text));
+        if (among != &ck->presets) diag_related(ck->diag, d, def->span, "`%s` is defined here", s.best);
+    } else if (among == &ck->presets) {
+        const char *all = "";
+        for (const struct definition *def = among->first; def; def = def->next) all = arena_format(ck->arena, "%s%s%s", all, *all ? ", " : "", def->name);
+        diag_note(ck->diag, d, "the presets are %s", all);
+    } else if (among == &ck->templates) {
+        diag_help(ck->diag, d, "define it: `define: {%s: {objects: [...]}}`", short_text(ck, n->text));
+    } else if (!help_preset(ck, d, n->text) && !help_fitting(ck, d, key->of, n)) {
+        diag_help(ck->diag, d, among->first ? "define it under `%ss:`" : "define it: `%ss: {%s: {...}}`", what, short_text(ck, n->text));
     }
 }
 

@@ -17,6 +17,8 @@ struct node {
     enum node_kind kind;
     bool quoted;               /* a scalar in quotes or a block scalar */
     bool merged;               /* a key that a merge key brought here */
+    bool passing;              /* of an item that is handed over while the file is read, see node_stream */
+    bool rehearsed;            /* lang/: what stands here has been checked without values */
     uint32_t count;            /* scalar: bytes of text; sequence: items; mapping: pairs */
     uint32_t anchor;           /* of a node that an anchor names: its number, from 1; else 0 */
     union {
@@ -25,6 +27,7 @@ struct node {
         struct node *target;   /* alias: the anchored node, never an alias itself */
     };
     struct node *next; /* sibling */
+    struct expr *expr; /* lang/: of a scalar that was parsed as an expression; else NULL */
 };
 
 /* What stands for the node: an alias's target, else the node itself. */
@@ -47,9 +50,23 @@ struct node_problem {
     struct span quoted_at, quoted_end; /* of the last text in quotes before; source NULL: none */
 };
 
+/* Hands over the items of the list under one key of the root mapping as soon as they are read, so that
+ * a long list need never be in memory as a whole. */
+struct node_stream {
+    void *context;
+    const char *key;
+    void (*begin)(void *context, struct node *root);  /* before the first: the pairs of the root so far */
+    bool (*item)(void *context, struct node *item);   /* true: the item is forgotten; else it stays in its list */
+};
+
+/* The value of that key in a mapping, or NULL. */
+struct node *node_get(const struct node *mapping, const char *key);
+
 /* Parses the only document of `source`. NULL when it is empty or breaks a limit, which is reported to
- * `diag`, or not YAML, which is left to *problem (zeroed before by the caller) and not reported. */
+ * `diag`, or not YAML, which is left to *problem (zeroed before by the caller) and not reported.
+ * stream may be NULL. */
 struct node *node_parse(struct arena *arena, struct diagnostics *diag, const struct source *source,
-                        const struct node_limits *limits, struct node_problem *problem);
+                        const struct node_limits *limits, const struct node_stream *stream,
+                        struct node_problem *problem);
 
 #endif

@@ -61,17 +61,35 @@ static bool check_row(struct checker *ck, const struct grammar_key *key, const s
     return ok;
 }
 
+/* A scalar or keyframes for the whole vector: an expression. A number serves all three axes where
+ * factors are wanted. QUANTITY_NONE: it is neither. */
+static enum quantity_result read_vector(struct checker *ck, const struct grammar_key *key, const struct node *node, double v[3]) {
+    const struct node *n = node_resolve(node);
+    struct quantity q;
+    if (n->kind == NODE_SEQUENCE) return QUANTITY_NONE;
+    const enum quantity_result result = scope_quantity(ck, key->name, node, &q);
+    if (result == QUANTITY_UNKNOWN) memcpy(v, key->value, sizeof key->value);
+    if (result != QUANTITY_OK) return result;
+    if (q.count != 3 && (q.count != 1 || key->type != GRAMMAR_FACTORS)) return QUANTITY_NONE;
+    for (unsigned i = 0; i < 3; i++) v[i] = q.v[q.count == 3 ? i : 0];
+    return QUANTITY_OK;
+}
+
 bool check_vector(struct checker *ck, const struct grammar_key *key, const struct node *node, vec3 *out) {
     static const char *const names[3] = {"x", "y", "z"};
     double v[3];
-    if (key->type == GRAMMAR_FACTORS && node_resolve(node)->kind == NODE_SCALAR) {
+    const struct node *n = node_resolve(node);
+    const bool all = key->type == GRAMMAR_FACTORS && n->kind == NODE_SCALAR && scalar_is_number(n->text);
+    const enum quantity_result whole = all ? QUANTITY_NONE : read_vector(ck, key, node, v);
+    if (whole == QUANTITY_WRONG || (whole == QUANTITY_UNKNOWN && !ck->rehearsing)) return false;
+    if (all) {
         if (!check_number(ck, key, node, &v[0])) return false;
-        *out = vec3_all(v[0]);
-        return true;
+        v[1] = v[2] = v[0];
+    } else if (whole == QUANTITY_NONE) {
+        const char *form = key->type == GRAMMAR_FACTORS ? "a number or [x, y, z]" : "[x, y, z]";
+        if (!check_row(ck, key, node, form, 3, names, check_number, v)) return false;
     }
-    const char *form = key->type == GRAMMAR_FACTORS ? "a number or [x, y, z]" : "[x, y, z]";
-    if (!check_row(ck, key, node, form, 3, names, check_number, v)) return false;
-    if (key->type == GRAMMAR_DIRECTION && v[0] == 0.0 && v[1] == 0.0 && v[2] == 0.0) {
+    if (key->type == GRAMMAR_DIRECTION && !ck->rehearsing && v[0] == 0.0 && v[1] == 0.0 && v[2] == 0.0) {
         diag_help(ck->diag, diag_error(ck->diag, node->span, "null-direction", "`%s`: [0, 0, 0] is no direction", key->name),
                   "any other vector will do, of any length");
         return false;

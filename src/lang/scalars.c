@@ -89,12 +89,20 @@ static const char *wanted_number(const struct grammar_key *key) {
     return key->type == GRAMMAR_INTEGER || key->type == GRAMMAR_SIZE ? "a whole number" : "a number";
 }
 
+static void offer_name(void *to, const char *name) { spelling_offer(to, name); }
+
+static void help_variable(struct checker *ck, struct diagnostic *d, const char *text) {
+    struct spelling s = spelling_begin(text);
+    const struct expr_scope scope = scope_names(ck);
+    scope.names(scope.context, offer_name, &s);
+    if (s.best) diag_help(ck->diag, d, "did you mean `%s`?", s.best);
+}
+
 static void help_scalar(struct checker *ck, struct diagnostic *d, const char *text) {
     const char *what = NULL, *mended = mend_lookalike(ck, text, &what);
     if (mended) diag_help(ck->diag, d, "it has %s in it: did you mean %s?", what, mended);
     else if (help_base(ck, d, text) || help_unit(ck, d, text)) return;
-    else if (strpbrk(text, "*/()<>?^") || strstr(text, " + ") || strstr(text, " - "))
-        diag_help(ck->diag, d, "expressions are not there yet: write the number itself");
+    else if (scope_is_name(text)) help_variable(ck, d, text);
     else if (spelling_distance(text, ".inf") <= 1 || spelling_distance(text, ".nan") <= 1 || spelling_distance(text, "-.inf") <= 1)
         diag_help(ck->diag, d, "a number is finite");
 }
@@ -110,6 +118,31 @@ static void report_no_number(struct checker *ck, const struct grammar_key *key, 
     if (n->kind == NODE_SCALAR && n->count <= 100) help_scalar(ck, d, n->text);
 }
 
+/* Exact where the digits are few enough that their product with a power of ten rounds once
+ * (Clinger, "How to read floating point numbers accurately", 1990); false elsewhere. */
+static bool short_number(const char *text, double *out) {
+    static const double powers[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
+                                    1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+    uint64_t digits = 0;
+    int count = 0, places = 0;
+    const char *c = text + (*text == '-' || *text == '+');
+    for (bool point = false; *c; c++) {
+        if (*c == '.' && !point) {
+            point = true;
+            continue;
+        }
+        if (!isdigit((unsigned char)*c)) return false;
+        digits = 10 * digits + (uint64_t)(*c - '0');
+        count += digits > 0;
+        places += point;
+        if (count > 18 || places > 22) return false;
+    }
+    if (digits >> 53) return false;
+    const double value = (double)digits / powers[places];
+    *out = *text == '-' ? -value : value;
+    return true;
+}
+
 /* strtod takes the decimal point of the program's locale, the language a point. */
 static double to_double(struct checker *ck, const char *number) {
     const char *point = localeconv()->decimal_point, *at = strchr(number, '.');
@@ -117,25 +150,45 @@ static double to_double(struct checker *ck, const char *number) {
     return strtod(arena_format(ck->arena, "%.*s%s%s", (int)(at - number), number, point, at + 1), NULL);
 }
 
-/* Any finite number. */
-static bool parse_number(struct checker *ck, const struct grammar_key *key, const struct node *node, double *out) {
-    const struct node *n = node_resolve(node);
-    if (n->kind != NODE_SCALAR || !scalar_is_number(n->text)) {
-        report_no_number(ck, key, node);
-        return false;
-    }
-    const double value = to_double(ck, n->text);
-    if (has_leading_zero(n->text)) {
-        struct diagnostic *d = diag_error(ck->diag, node->span, "leading-zero", "`%s`: a number with a leading zero, found %s", key->name, found_text(ck, node));
-        diag_help(ck->diag, d, "write %.17g; some readers of YAML take a leading zero for base 8", value);
-        return false;
-    }
-    if (!isfinite(value)) {
-        diag_error(ck->diag, node->span, "too-large", "`%s`: too large, numbers end at 1.8e308, found %s", key->name, found_text(ck, node));
-        return false;
-    }
+bool scalar_number(struct checker *ck, const char *text, double *out) {
+    double value;
+    if (!scalar_is_number(text) || has_leading_zero(text)) return false;
+    if (!short_number(text, &value)) value = to_double(ck, text);
+    if (!isfinite(value)) return false;
     *out = value;
     return true;
+}
+
+static enum quantity_result report_bad_number(struct checker *ck, const struct grammar_key *key, const struct node *node) {
+    const struct node *n = node_resolve(node);
+    if (has_leading_zero(n->text)) {
+        struct diagnostic *d = diag_error(ck->diag, node->span, "leading-zero", "`%s`: a number with a leading zero, found %s", key->name, found_text(ck, node));
+        diag_help(ck->diag, d, "write %.17g; some readers of YAML take a leading zero for base 8", to_double(ck, n->text));
+    } else {
+        diag_error(ck->diag, node->span, "too-large", "`%s`: too large, numbers end at 1.8e308, found %s", key->name, found_text(ck, node));
+    }
+    return QUANTITY_WRONG;
+}
+
+/* Any finite number. */
+static enum quantity_result read_number(struct checker *ck, const struct grammar_key *key, const struct node *node, double *out) {
+    const struct node *n = node_resolve(node);
+    struct quantity q;
+    if (n->kind == NODE_SCALAR && scalar_number(ck, n->text, out)) return QUANTITY_OK;
+    if (n->kind == NODE_SCALAR && scalar_is_number(n->text)) return report_bad_number(ck, key, node);
+    enum quantity_result result = n->kind == NODE_SEQUENCE ? QUANTITY_NONE : scope_quantity(ck, key->name, node, &q);
+    if (result == QUANTITY_OK && q.count == 1) *out = q.v[0];
+    else if (result == QUANTITY_OK || result == QUANTITY_NONE) {
+        report_no_number(ck, key, node);
+        result = QUANTITY_WRONG;
+    }
+    return result;
+}
+
+/* A value that is not known: in a rehearsal anything will do. */
+static bool take_default(const struct checker *ck, const struct grammar_key *key, double *out) {
+    if (ck->rehearsing) *out = key->value[0];
+    return ck->rehearsing;
 }
 
 static const char *range_text(struct checker *ck, const struct grammar_key *key) {
@@ -151,7 +204,10 @@ static bool in_range(struct checker *ck, const struct grammar_key *key, const st
     const bool high = key->has_max && !(value <= key->max);
     if (!low && !high) return true;
     if (only_counted(ck, node->span)) return false;
-    struct diagnostic *d = diag_error(ck->diag, node->span, "out-of-range", "`%s`: must be %s, found %s", key->name, range_text(ck, key), found_text(ck, node));
+    const struct node *n = node_resolve(node);
+    const bool written = n->kind == NODE_SCALAR && scalar_is_number(n->text);
+    const char *found = written ? found_text(ck, node) : arena_format(ck->arena, "%s, which is %.15g", found_text(ck, node), value);
+    struct diagnostic *d = diag_error(ck->diag, node->span, "out-of-range", "`%s`: must be %s, found %s", key->name, range_text(ck, key), found);
     if (high && key->type == GRAMMAR_SIZE)
         diag_help(ck->diag, d, "a square of that side would take %.3g GiB of memory", 12.0 * value * value / (1 << 30));
     return false;
@@ -159,14 +215,18 @@ static bool in_range(struct checker *ck, const struct grammar_key *key, const st
 
 bool check_number(struct checker *ck, const struct grammar_key *key, const struct node *node, double *out) {
     double value;
-    if (!parse_number(ck, key, node, &value) || !in_range(ck, key, node, value)) return false;
+    const enum quantity_result result = read_number(ck, key, node, &value);
+    if (result == QUANTITY_UNKNOWN) return take_default(ck, key, out);
+    if (result != QUANTITY_OK || !in_range(ck, key, node, value)) return false;
     *out = value;
     return true;
 }
 
 bool check_integer(struct checker *ck, const struct grammar_key *key, const struct node *node, double *out) {
     double value;
-    if (!parse_number(ck, key, node, &value)) return false;
+    const enum quantity_result result = read_number(ck, key, node, &value);
+    if (result == QUANTITY_UNKNOWN) return take_default(ck, key, out);
+    if (result != QUANTITY_OK) return false;
     if (value != floor(value)) {
         diag_error(ck->diag, node->span, "not-whole", "`%s`: expected a whole number, found %s", key->name, found_text(ck, node));
         return false;
@@ -178,10 +238,21 @@ bool check_integer(struct checker *ck, const struct grammar_key *key, const stru
 
 /* ---- Words ---- */
 
+/* 0 and 1 are no booleans as they stand: they were meant to be words. */
+static bool is_written_number(const struct node *n) { return n->kind == NODE_SCALAR && scalar_is_number(n->text); }
+
 bool check_boolean(struct checker *ck, const struct grammar_key *key, const struct node *node, int *out) {
     const struct node *n = node_resolve(node);
     if (n->kind == NODE_SCALAR && (strcmp(n->text, "true") == 0 || strcmp(n->text, "false") == 0)) {
         *out = n->text[0] == 't';
+        return true;
+    }
+    struct quantity q;
+    const enum quantity_result result = is_written_number(n) ? QUANTITY_NONE : scope_quantity(ck, key->name, node, &q);
+    if (result == QUANTITY_UNKNOWN) *out = 0;
+    if (result == QUANTITY_UNKNOWN || result == QUANTITY_WRONG) return result == QUANTITY_UNKNOWN && ck->rehearsing;
+    if (result == QUANTITY_OK && q.count == 1) {
+        *out = q.v[0] != 0.0;
         return true;
     }
     struct diagnostic *d = diag_error(ck->diag, node->span, "not-a-boolean", "`%s`: expected true or false, found %s", key->name, found_text(ck, node));

@@ -22,17 +22,26 @@ struct reader {
     struct diagnostics *diag;
     const struct source *source;
     const struct node_limits *limits;
+    const struct node_stream *stream; /* NULL: none, or its list is under way or over */
     struct node_problem *problem;
     struct table anchors; /* the newest of each name */
     uint32_t anchor_count;
     size_t nodes;                 /* in the text */
     size_t merged;                /* pairs that merge keys have looked at */
     double values;                /* nodes, those behind aliases each time */
-    struct node *beyond;          /* the alias with which `values` passes the limit; NULL: not yet */
+    bool is_beyond;               /* an alias has taken `values` past the limit */
+    struct span beyond;           /* that alias */
+    bool passing;                 /* an item of the stream is being read */
     unsigned nesting;             /* collections that are open */
     unsigned height;              /* of the node that was read last, as in struct anchor */
     const struct anchor *largest; /* alias in the innermost anchored node */
 };
+
+struct node *node_get(const struct node *mapping, const char *key) {
+    for (struct node *k = mapping->first; k; k = k->next->next)
+        if (k->kind == NODE_SCALAR && strcmp(k->text, key) == 0) return k->next;
+    return NULL;
+}
 
 bool node_is_null(const struct node *node) {
     const struct node *n = node_resolve(node);
@@ -123,7 +132,7 @@ static struct anchor *add_anchor(struct reader *rd, const yaml_char_t *name, str
 /* How the largest of the aliases comes to its size, from anchor to anchor. */
 static bool report_expansion(struct reader *rd, const struct anchor *largest) {
     enum { CHAIN = 5 };
-    struct diagnostic *d = diag_error(rd->diag, rd->beyond->span, "limit-values", "aliases make %.6g values of this file, more than %zu (the limit `values`)",
+    struct diagnostic *d = diag_error(rd->diag, rd->beyond, "limit-values", "aliases make %.6g values of this file, more than %zu (the limit `values`)",
                                       rd->values, rd->limits->nodes);
     int i = 0;
     for (const struct anchor *a = largest; a && i < CHAIN; a = a->largest, i++)
@@ -162,7 +171,10 @@ static bool read_alias(struct reader *rd, struct node *node) {
     rd->height = a->height;
     rd->largest = larger(rd->largest, a);
     rd->values += a->values;
-    if (!rd->beyond && rd->values > (double)rd->limits->nodes) rd->beyond = node;
+    if (!rd->is_beyond && rd->values > (double)rd->limits->nodes) {
+        rd->is_beyond = true;
+        rd->beyond = node->span;
+    }
     return true;
 }
 
@@ -257,18 +269,72 @@ static bool merge_all(struct reader *rd, struct node *mapping) {
 
 static struct node *read_node(struct reader *rd);
 
+/* The items of the streamed list, of which those stay that its reader wants to keep or that anchors
+ * name; the current event starts the list. */
+static bool read_streamed(struct reader *rd, struct node *list) {
+    const struct node_stream *stream = rd->stream;
+    struct node **tail = &list->first;
+    rd->stream = NULL;
+    rd->nesting++;
+    for (;;) {
+        if (!next_event(rd)) return false;
+        if (rd->event.type == YAML_SEQUENCE_END_EVENT) break;
+        const struct arena_mark before = arena_mark(rd->arena);
+        const uint32_t anchors = rd->anchor_count;
+        rd->passing = true;
+        struct node *item = read_node(rd);
+        rd->passing = false;
+        if (!item) return false;
+        const bool done = !rd->is_beyond && stream->item(stream->context, item);
+        if (done && rd->anchor_count == anchors) {
+            arena_release(rd->arena, before);
+        } else if (!done) {
+            *tail = item;
+            tail = &item->next;
+            list->count++;
+        }
+    }
+    rd->nesting--;
+    return true;
+}
+
+/* Shows the whole pairs of the root so far, without the key at *last whose value is to come. */
+static void begin_stream(const struct reader *rd, struct node *root, struct node **last) {
+    struct node *key = *last;
+    *last = NULL;
+    rd->stream->begin(rd->stream->context, root);
+    *last = key;
+}
+
+static struct node *read_stream_list(struct reader *rd) {
+    struct node *list = arena_alloc(rd->arena, sizeof *list);
+    list->span = span_of(rd, rd->event.start_mark, rd->event.end_mark);
+    list->kind = NODE_SEQUENCE;
+    return count_node(rd, list->span) && read_streamed(rd, list) ? list : NULL;
+}
+
+/* Whether the node that the current event starts, the value of `key` in the root, is the list to stream. */
+static bool is_streamed(const struct reader *rd, const struct node *key) {
+    return rd->stream && rd->nesting == 1 && rd->event.type == YAML_SEQUENCE_START_EVENT &&
+           !rd->event.data.sequence_start.anchor && !rd->event.data.sequence_start.tag && key->kind == NODE_SCALAR &&
+           strcmp(key->text, rd->stream->key) == 0;
+}
+
 /* Children up to the event `end`, linked; the current event starts the collection. */
 static bool read_children(struct reader *rd, struct node *node, yaml_event_type_t end) {
-    struct node **tail = &node->first;
+    struct node **tail = &node->first, **last = tail;
     uint32_t count = 0;
     unsigned height = 0;
     for (;; count++) {
         if (!next_event(rd)) return false;
         if (rd->event.type == end) break;
-        struct node *child = read_node(rd);
+        const bool streamed = count % 2 == 1 && end == YAML_MAPPING_END_EVENT && is_streamed(rd, *last);
+        if (streamed) begin_stream(rd, node, last);
+        struct node *child = streamed ? read_stream_list(rd) : read_node(rd);
         if (!child) return false;
         if (rd->height > height) height = rd->height;
         *tail = child;
+        last = tail;
         tail = &child->next;
     }
     rd->height = height + 1;
@@ -344,6 +410,7 @@ static struct node *read_node(struct reader *rd) {
     const yaml_event_t *e = &rd->event;
     struct node *node = arena_alloc(rd->arena, sizeof *node);
     node->span = span_of(rd, e->start_mark, e->end_mark);
+    node->passing = rd->passing;
     if (!count_node(rd, node->span)) return NULL;
     if (e->type == YAML_ALIAS_EVENT) return read_alias(rd, node) ? node : NULL;
 
@@ -388,13 +455,14 @@ static struct node *read_stream(struct reader *rd) {
         return NULL;
     }
     if (node_is_null(root) && !report_empty(rd)) return NULL;
-    if (rd->beyond && !report_expansion(rd, rd->largest)) return NULL;
+    if (rd->is_beyond && !report_expansion(rd, rd->largest)) return NULL;
     return root;
 }
 
 struct node *node_parse(struct arena *arena, struct diagnostics *diag, const struct source *source,
-                        const struct node_limits *limits, struct node_problem *problem) {
-    struct reader rd = {.arena = arena, .diag = diag, .source = source, .limits = limits, .problem = problem};
+                        const struct node_limits *limits, const struct node_stream *stream,
+                        struct node_problem *problem) {
+    struct reader rd = {.arena = arena, .diag = diag, .source = source, .limits = limits, .stream = stream, .problem = problem};
     if (!yaml_parser_initialize(&rd.parser)) {
         diag_failure(diag, "out-of-memory", "%s: out of memory", source->name);
         return NULL;

@@ -427,7 +427,7 @@ static void defaults_are_those_of_the_grammar(void **state) {
     const struct node_limits limits = {50, 100000};
     const struct source *source = file_read(&arena, &diag, "grammar/language.yaml", 1000000);
     assert_non_null(source);
-    const struct node *root = node_parse(&arena, &diag, source, &limits, &problem);
+    const struct node *root = node_parse(&arena, &diag, source, &limits, NULL, &problem);
     load_good(&l, "scene: [{sphere: {}, material: {}}]");
     const struct monge_settings *s = &l.scene.settings;
     const struct material *m = &l.scene.materials[0];

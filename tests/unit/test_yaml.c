@@ -45,7 +45,7 @@ static void parse(struct parsed *p, const char *text, size_t size, unsigned nest
     *p = (struct parsed){.source = {"t", text, size}};
     const struct node_limits limits = {nesting, nodes};
     size_t length;
-    p->root = node_parse(&p->arena, &p->diag, &p->source, &limits, &p->problem);
+    p->root = node_parse(&p->arena, &p->diag, &p->source, &limits, NULL, &p->problem);
     FILE *out = open_memstream(&p->text, &length);
     if (p->root) write_node(out, p->root);
     else fputs(p->problem.text ? p->problem.text : p->diag.first ? p->diag.first->message : "nothing was said", out);
@@ -233,7 +233,7 @@ static void a_full_arena_leaves_by_its_jump(void **state) {
     const struct source source = {"t", text, strlen(text)};
     const struct node_limits limits = {10, 1000000};
     if (setjmp(full) == 0) {
-        node_parse(&arena, &diag, &source, &limits, &problem);
+        node_parse(&arena, &diag, &source, &limits, NULL, &problem);
         fail_msg("the arena was never full");
     }
     assert_ptr_equal(arena.on_full, &full);

@@ -1,0 +1,124 @@
+/* Files that a scene includes for their definitions. */
+#include <dirent.h>
+#include <errno.h>
+#include <limits.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "lang/checker.h"
+#include "lang/file.h"
+#include "lang/problem.h"
+#include "lang/spelling.h"
+
+/* Bytes of a path up to its last slash, that included. */
+static size_t folder_length(const char *path) {
+    const char *slash = strrchr(path, '/');
+    return slash ? (size_t)(slash - path) + 1 : 0;
+}
+
+static const char *path_from(struct checker *ck, const struct unit *unit, const char *name) {
+    struct arena *arena = &ck->memory->kept;
+    if (*name == '/') return arena_text(arena, name, strlen(name));
+    return arena_format(arena, "%.*s%s", (int)folder_length(unit->path), unit->path, name);
+}
+
+/* ---- What is wrong ---- */
+
+static void report_missing(struct checker *ck, const struct node *node, const char *path) {
+    const int reason = errno;
+    const struct node *n = node_resolve(node);
+    struct diagnostic *d = diag_error(ck->diag, node->span, "include-missing", "cannot read `%s`: %s", short_text(ck, n->text), strerror(reason));
+    diag_note(ck->diag, d, "looked for it at %s", path);
+    const char *folder = arena_format(ck->arena, "%.*s", (int)folder_length(path), path);
+    DIR *files = opendir(*folder ? folder : ".");
+    struct spelling s = spelling_begin(path + folder_length(path));
+    const char *best = NULL;
+    for (struct dirent *file = files ? readdir(files) : NULL; file; file = readdir(files)) {
+        spelling_offer(&s, file->d_name);
+        if (s.best == file->d_name) s.best = best = arena_text(ck->arena, file->d_name, strlen(file->d_name));
+    }
+    if (files) closedir(files);
+    if (best) diag_help(ck->diag, d, "did you mean `%.*s%s`?", (int)folder_length(n->text), n->text, best);
+}
+
+static void report_cycle(struct checker *ck, const struct unit *unit, const struct unit *again, const struct node *node) {
+    struct diagnostic *d = diag_error(ck->diag, node->span, "include-cycle", "`%s` includes itself", again->source->name);
+    for (const struct unit *u = unit; u != again; u = u->includer) diag_related(ck->diag, d, u->include, "`%s` is included here", u->source->name);
+    diag_help(ck->diag, d, "remove one of these includes");
+}
+
+/* In an untrusted run nothing is read outside of the folder of the scene. */
+static bool is_allowed(struct checker *ck, const struct node *node, const char *path) {
+    if (!ck->input->untrusted) return true;
+    char folder[PATH_MAX], real[PATH_MAX];
+    const char *scene = ck->input->path;
+    const char *around = arena_format(ck->arena, "%.*s", (int)folder_length(scene), scene);
+    if (!realpath(*around ? around : ".", folder) || !realpath(path, real)) return true; /* is missing: reported so */
+    const size_t length = strlen(folder);
+    if (strncmp(folder, real, length) == 0 && (real[length] == '/' || length == 1)) return true;
+    struct diagnostic *d = diag_error(ck->diag, node->span, "include-outside", "`%s` is not in the folder of the scene", short_text(ck, node_resolve(node)->text));
+    diag_help(ck->diag, d, "without `--untrusted` it may be included");
+    return false;
+}
+
+/* ---- Reading ---- */
+
+static struct unit *find_unit(const struct checker *ck, const struct stat *file) {
+    struct unit *u = ck->units;
+    while (u && !(u->device == (uint64_t)file->st_dev && u->inode == (uint64_t)file->st_ino && u->inode)) u = u->next;
+    return u;
+}
+
+static bool is_around(const struct unit *unit, const struct unit *wanted) {
+    while (unit && unit != wanted) unit = unit->includer;
+    return unit != NULL;
+}
+
+static struct unit *read_unit(struct checker *ck, const struct unit *includer, const struct node *node, const char *path, const struct stat *file) {
+    struct arena *arena = &ck->memory->kept;
+    const struct source *source = file_read(arena, ck->diag, path, ck->input->limits.file_bytes);
+    if (!source) return NULL;
+    struct unit *unit = arena_alloc(arena, sizeof *unit);
+    *unit = (struct unit){.source = source, .path = path, .includer = includer, .include = node->span,
+                          .device = (uint64_t)file->st_dev, .inode = (uint64_t)file->st_ino, .next = ck->units};
+    ck->units = unit;
+    const struct node_limits limits = {ck->input->limits.nesting, ck->input->limits.values};
+    struct node_problem problem = {0};
+    unit->root = node_parse(arena, ck->diag, source, &limits, NULL, &problem);
+    if (problem.text) problem_report(ck->diag, &problem);
+    return unit->root ? unit : NULL;
+}
+
+static void include_file(struct checker *ck, const struct unit *unit, const struct node *node) {
+    const struct node *n = node_resolve(node);
+    if (n->kind != NODE_SCALAR || n->count == 0) {
+        diag_error(ck->diag, node->span, "not-a-text", "`include`: expected a path, found %s", found_text(ck, node));
+        return;
+    }
+    const char *path = path_from(ck, unit, n->text);
+    struct stat file;
+    if (!is_allowed(ck, node, path)) return;
+    errno = 0;
+    if (stat(path, &file) != 0 || S_ISDIR(file.st_mode)) {
+        if (!errno) errno = EISDIR;
+        report_missing(ck, node, path);
+        return;
+    }
+    const struct unit *known = find_unit(ck, &file);
+    if (known && is_around(unit, known)) report_cycle(ck, unit, known, node);
+    if (known || !place_descend(ck, node)) return;
+    struct unit *included = read_unit(ck, unit, node, path, &file);
+    if (included && included->root->kind == NODE_MAPPING) define_names(ck, included);
+    else if (included) report_no_mapping(ck, &grammar_kinds[KIND_FILE], included->root);
+    ck->depth--;
+}
+
+void include_files(struct checker *ck, const struct unit *unit, const struct node *value) {
+    const struct node *n = node_resolve(value);
+    if (n->kind != NODE_SEQUENCE) {
+        include_file(ck, unit, value);
+        return;
+    }
+    for (const struct node *item = n->first; item; item = item->next) include_file(ck, unit, item);
+}

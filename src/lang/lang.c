@@ -1,0 +1,117 @@
+/* Reads a scene: its files, its names, its objects one by one, then the rest. */
+#include "lang/lang.h"
+
+#include <sys/stat.h>
+
+#include "lang/checker.h"
+#include "lang/problem.h"
+
+void lang_memory_free(struct lang_memory *memory) {
+    arena_free(&memory->scratch);
+    arena_free(&memory->kept);
+    arena_free(&memory->nodes);
+}
+
+/* ---- Objects while the file is read ----
+ * Whatever needs a name that is not there yet stays in its list, and what follows with it, until all of
+ * the file is known. */
+
+struct streaming {
+    struct checker *ck;
+    struct unit *unit;
+    bool over; /* an item had to wait: all further ones do */
+};
+
+static void stream_begin(void *context, struct node *root) {
+    struct streaming *s = context;
+    s->unit->root = root;
+    define_names(s->ck, s->unit);
+}
+
+static bool stream_item(void *context, struct node *item) {
+    struct streaming *s = context;
+    struct checker *ck = s->ck;
+    if (s->over) return false;
+    if (ck->stopped) return true;
+    const size_t steps = ck->steps, objects = ck->objects;
+    ck->input->sink->mark(ck->input->sink->context);
+    ck->waiting = false;
+    place_item(ck, item);
+    if (!ck->waiting) return true;
+    ck->waiting = false;
+    ck->steps = steps;
+    ck->objects = objects;
+    ck->input->sink->take_back(ck->input->sink->context);
+    s->over = true;
+    return false;
+}
+
+/* ---- The file ---- */
+
+static struct unit *read_scene(struct checker *ck) {
+    struct stat file;
+    const struct lang_input *input = ck->input;
+    struct unit *unit = arena_alloc(&ck->memory->kept, sizeof *unit);
+    *unit = (struct unit){.source = input->source, .path = input->path};
+    if (input->path && stat(input->path, &file) == 0) {
+        unit->device = (uint64_t)file.st_dev;
+        unit->inode = (uint64_t)file.st_ino;
+    }
+    ck->units = unit;
+    struct streaming streaming = {ck, unit, false};
+    const struct node_stream stream = {&streaming, "scene", stream_begin, stream_item};
+    const struct node_limits limits = {input->limits.nesting, input->limits.values};
+    struct node_problem problem = {0};
+    unit->root = node_parse(&ck->memory->nodes, ck->diag, input->source, &limits, &stream, &problem);
+    if (problem.text) problem_report(ck->diag, &problem);
+    return unit->root ? unit : NULL;
+}
+
+/* What an included file has besides definitions is for when it is rendered itself: no slip in it passes. */
+static void check_included(struct checker *ck) {
+    ck->rehearsing = true;
+    for (const struct unit *unit = ck->units; unit; unit = unit->next)
+        if (unit->includer && unit->root && unit->root->kind == NODE_MAPPING) {
+            const struct object_value *file = check_object(ck, &grammar_kinds[KIND_FILE], unit->root);
+            if (file && file->fields[KEY_FILE_SCENE]) place_list(ck, file->fields[KEY_FILE_SCENE]->node);
+        }
+    ck->rehearsing = false;
+}
+
+static struct object_list named_materials(struct checker *ck) {
+    struct object_list list = {arena_array(ck->arena, ck->materials.count + 1, sizeof *list.items), 0};
+    for (const struct definition *def = ck->materials.first; def; def = def->next)
+        if (def->object) list.items[list.count++] = def->object;
+    return list;
+}
+
+static void set_up(struct checker *ck, struct lang_memory *memory) {
+    memory->kept.parent = memory->scratch.parent = &memory->nodes;
+    ck->parameters_end = &ck->first_parameter;
+    ck->arena = &memory->scratch;
+}
+
+struct lang_result lang_read(struct lang_memory *memory, struct diagnostics *diag, const struct lang_input *input) {
+    struct lang_input framed = *input;
+    if (!framed.frame) framed.frame = 1;
+    struct checker ck = {.memory = memory, .diag = diag, .input = &framed, .provisional = true};
+    const unsigned errors = diag->errors;
+    set_up(&ck, memory);
+    struct unit *unit = read_scene(&ck);
+    if (!unit) return (struct lang_result){0};
+    ck.provisional = false;
+    define_names(&ck, unit);
+    const bool objects_moved = ck.moved;
+    ck.moved = false;
+    ck.arena = &memory->kept;
+    struct object_value *file = check_object(&ck, &grammar_kinds[KIND_FILE], unit->root);
+    ck.arena = &memory->scratch;
+    ck.moved = objects_moved;
+    if (file && file->fields[KEY_FILE_SCENE]) place_list(&ck, file->fields[KEY_FILE_SCENE]->node);
+    if (file) check_included(&ck);
+    if (file) file->failed = diag->errors != errors;
+    if (file) define_check_used(&ck);
+    const unsigned frames = ck.animation ? (unsigned)object_number(ck.animation, KEY_ANIMATION_FRAMES) : 0;
+    ck.arena = &memory->kept;
+    return (struct lang_result){file, named_materials(&ck), ck.moved, frames};
+}
