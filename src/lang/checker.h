@@ -76,6 +76,9 @@ bool check_color(struct checker *ck, const struct grammar_key *key, const struct
 /* Whether the text is a colour: "#rrggbb", "#rgb" or a CSS name. */
 bool color_parse(const char *text, vec3 *out);
 
+/* The light of an sRGB part, both 0 to 1 (IEC 61966-2-1). */
+double linear_from_srgb(double c);
+
 /* ---- mistakes.c: what is wrong with keys and mappings, and the smallest fix ---- */
 
 /* Whether there is room for the count of mistakes alone: then it is counted, and its text need not be made. */
