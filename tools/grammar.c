@@ -1,10 +1,10 @@
 /* Makes what is generated from the definition of the language:
  *
- *     grammar tables-header FOLDER OUT    enums of kinds, keys and choices
+ *     grammar tables-header FOLDER OUT    enums of kinds, keys, choices and functions
  *     grammar tables        FOLDER OUT    the loader's tables
  *     grammar reference     FOLDER OUT    the reference manual, Markdown
  *
- * FOLDER holds language.yaml and colors.yaml. Exit 0, or 2 with a message and no OUT. */
+ * FOLDER holds language.yaml, functions.yaml and colors.yaml. Exit 0, or 2 with a message and no OUT. */
 #include <ctype.h>
 #include <stdlib.h>
 #include <string.h>
@@ -123,12 +123,14 @@ static void header_kind_name(FILE *out, const char *name, const struct node *kin
     fprintf(out, "    KIND_%s,\n", upper(name));
 }
 
-static void write_header(FILE *out, const struct node *root) {
-    fprintf(out, "/* Generated from grammar/language.yaml. */\n#ifndef GRAMMAR_TABLES_H\n#define GRAMMAR_TABLES_H\n\nenum {\n");
+static void write_header(FILE *out, const struct node *root, const struct node *expressions) {
+    fprintf(out, "/* Generated from grammar/language.yaml and grammar/functions.yaml. */\n#ifndef GRAMMAR_TABLES_H\n#define GRAMMAR_TABLES_H\n\nenum {\n");
     for_kinds(root, out, header_kind_name);
     fprintf(out, "    KINDS\n};\n\n");
     for_kinds(root, out, header_kind);
-    fprintf(out, "\n#endif\n");
+    fprintf(out, "\nenum {\n");
+    for (const struct node *k = get(expressions, "functions")->first; k; k = k->next->next) fprintf(out, "    FUNCTION_%s,\n", upper(k->text));
+    fprintf(out, "    FUNCTIONS\n};\n\n#endif\n");
 }
 
 /* ---- The tables ---- */
@@ -244,13 +246,52 @@ static void write_colors(FILE *out, const struct node *colors) {
     fprintf(out, "};\nconst int grammar_color_count = %u;\n", (unsigned)colors->count);
 }
 
-static void write_tables(FILE *out, const struct node *root, const struct node *colors) {
-    fputs("/* Generated from grammar/language.yaml and grammar/colors.yaml. */\n#include \"grammar_tables.h\"\n\n"
+static void check_function(const struct node *function) {
+    static const char *const known[] = {"call", "arguments", "doc", "domain", "example", "gives", "instead"};
+    const struct node *arguments = get(function, "arguments");
+    if (!text_of(function, "call") || !text_of(function, "doc")) fail(function, "a function needs a call and a doc");
+    if (!arguments || arguments->kind != NODE_SEQUENCE || arguments->count != 2) fail(function, "a function needs arguments: [least, most]");
+    if (!get(function, "example") != !get(function, "gives")) fail(function, "an example needs what it gives");
+    for (const struct node *field = function->first; field; field = field->next->next) {
+        bool found = false;
+        for (size_t i = 0; i < sizeof known / sizeof *known; i++) found |= strcmp(field->text, known[i]) == 0;
+        if (!found) fail(field, "a function has no such field");
+    }
+}
+
+static void write_function(FILE *out, const char *name, const struct node *function) {
+    check_function(function);
+    const struct node *least = get(function, "arguments")->first;
+    fprintf(out, "    {.name = \"%s\", .least = %s, .most = %s", name, least->text, least->next->text);
+    write_words(out, "instead", get(function, "instead"));
+    const char *texts[] = {"call", "doc", "domain", "example", "gives"};
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) write_text(out, texts[i], text_of(function, texts[i]));
+    fputs("},\n", out);
+}
+
+static void write_constant(FILE *out, const char *name, const struct node *constant) {
+    if (!text_of(constant, "value") || !text_of(constant, "doc")) fail(constant, "a constant needs a value and a doc");
+    fprintf(out, "    {\"%s\", %s, ", name, text_of(constant, "value"));
+    write_string(out, text_of(constant, "doc"));
+    fputs("},\n", out);
+}
+
+static void write_expressions(FILE *out, const struct node *expressions) {
+    fputs("const struct grammar_function grammar_functions[] = {\n", out);
+    for (const struct node *k = get(expressions, "functions")->first; k; k = k->next->next) write_function(out, k->text, k->next);
+    fputs("};\nconst int grammar_function_count = FUNCTIONS;\nconst struct grammar_constant grammar_constants[] = {\n", out);
+    for (const struct node *k = get(expressions, "constants")->first; k; k = k->next->next) write_constant(out, k->text, k->next);
+    fprintf(out, "};\nconst int grammar_constant_count = %u;\n", (unsigned)get(expressions, "constants")->count);
+}
+
+static void write_tables(FILE *out, const struct node *root, const struct node *expressions, const struct node *colors) {
+    fputs("/* Generated from grammar/language.yaml, grammar/functions.yaml and grammar/colors.yaml. */\n#include \"grammar_tables.h\"\n\n"
           "#include <stddef.h>\n\n#include \"lang/grammar.h\"\n\n", out);
     for_kinds(root, out, write_keys);
     fputs("const struct grammar_kind grammar_kinds[] = {\n", out);
     for_kinds(root, out, write_kind);
     fputs("};\nconst int grammar_kind_count = KINDS;\n", out);
+    write_expressions(out, expressions);
     write_colors(out, colors);
 }
 
@@ -314,10 +355,43 @@ static void reference_later(FILE *out, const char *name, const struct node *kind
         if (is_later(k->next)) fprintf(out, "| `%s` | %s | %s |\n", k->text, name, text_of(k->next, "doc"));
 }
 
-static void write_reference(FILE *out, const struct node *root) {
-    fputs("# Reference of the scene language\n\nGenerated from `language.yaml`. A *color* is linear `[r, g, b]`, each 0 to 1, or sRGB: a string "
+static void reference_expressions(FILE *out, const struct node *expressions) {
+    fputs("\n## Expressions\n\nWherever a number is expected, an expression may stand: numbers, colours, names, `[x, y, z]`, and, "
+          "from what binds most to what binds least,\n\n"
+          "| | |\n| --- | --- |\n"
+          "| `v.x` `v.y` `v.z` `c.r` `c.g` `c.b` `v[i]` | parts of a vector or colour; i counts from 0 |\n"
+          "| `a ^ b` | power, from right to left: `2 ^ 3 ^ 2` is `2 ^ 9`, `-2 ^ 2` is -4 |\n"
+          "| `-a` `+a` `!a` | negative, itself, not |\n"
+          "| `a * b` `a / b` `a % b` | product, quotient, the rest of it with the sign of b |\n"
+          "| `a + b` `a - b` | sum, difference |\n"
+          "| `a < b` `a <= b` `a > b` `a >= b` | comparisons; they give 1 or 0, and do not chain |\n"
+          "| `a == b` `a != b` | equal, not equal |\n"
+          "| `a && b` | and; b is not looked at where a is 0 |\n"
+          "| `a \\|\\| b` | or; b is not looked at where a is not 0 |\n"
+          "| `a ? b : c` | b where a is not 0, else c |\n\n"
+          "Vectors go through arithmetic and through the functions of numbers part by part; a number meets a vector by being repeated. "
+          "Angles are in degrees. Every result must be a finite number. `#rgb`, `#rrggbb` and the names of CSS are linear colours; a name "
+          "of the scene comes before a constant or colour of the same name.\n\n"
+          "| function | | example | gives |\n| --- | --- | --- | --- |\n", out);
+    for (const struct node *k = get(expressions, "functions")->first; k; k = k->next->next) {
+        check_function(k->next);
+        const char *call = text_of(k->next, "call"), *doc = text_of(k->next, "doc");
+        const char *domain = text_of(k->next, "domain"), *example = text_of(k->next, "example");
+        fprintf(out, "| `%s` | %s%s |", call, doc,
+                domain ? arena_format(&arena, " Takes %s.", domain) : "");
+        if (example) fprintf(out, " `%s` | `%s` |\n", example, text_of(k->next, "gives"));
+        else fputs(" | |\n", out);
+    }
+    fputs("\n| constant | | value |\n| --- | --- | --- |\n", out);
+    for (const struct node *k = get(expressions, "constants")->first; k; k = k->next->next)
+        fprintf(out, "| `%s` | %s | %s |\n", k->text, text_of(k->next, "doc"), text_of(k->next, "value"));
+}
+
+static void write_reference(FILE *out, const struct node *root, const struct node *expressions) {
+    fputs("# Reference of the scene language\n\nGenerated from `language.yaml` and `functions.yaml`. A *color* is linear `[r, g, b]`, each 0 to 1, or sRGB: a string "
           "like `\"#ffd700\"` or a CSS name like `gold`. Angles are in degrees. A *point* is in the space of the object that has the key.\n", out);
     for_kinds(root, out, reference_kind);
+    reference_expressions(out, expressions);
     fputs("\n## Words that are reserved\n\nThis version knows these words and says that they are not there yet.\n\n"
           "| word | in | for |\n| --- | --- | --- |\n", out);
     for_kinds(root, out, reference_later);
@@ -329,14 +403,15 @@ int main(int argc, char **argv) {
         return 2;
     }
     const struct node *root = read_file(argv[2], "language.yaml"), *colors = read_file(argv[2], "colors.yaml");
+    const struct node *expressions = read_file(argv[2], "functions.yaml");
     FILE *out = fopen(argv[3], "w");
     if (!out) {
         perror(argv[3]);
         return 2;
     }
-    if (strcmp(argv[1], "tables-header") == 0) write_header(out, root);
-    else if (strcmp(argv[1], "tables") == 0) write_tables(out, root, colors);
-    else write_reference(out, root);
+    if (strcmp(argv[1], "tables-header") == 0) write_header(out, root, expressions);
+    else if (strcmp(argv[1], "tables") == 0) write_tables(out, root, expressions, colors);
+    else write_reference(out, root, expressions);
     const bool written = fclose(out) == 0;
     if (!written) remove(argv[3]);
     arena_free(&arena);

@@ -3,7 +3,13 @@
 #include <math.h>
 #include <sleef.h>
 
+static const double degrees_per_radian = 57.29577951308232; /* 180 / pi */
+
 double elementary_pow(double base, double exponent) { return Sleef_cinz_powd1_u10purec(base, exponent); }
+double elementary_exp(double x) { return Sleef_cinz_expd1_u10purec(x); }
+double elementary_log(double x) { return Sleef_cinz_logd1_u10purec(x); }
+double elementary_log2(double x) { return Sleef_cinz_log2d1_u10purec(x); }
+double elementary_log10(double x) { return Sleef_cinz_log10d1_u10purec(x); }
 
 /* sin of quarter * 90 + rest degrees, |rest| <= 45. fmod and the subtractions are exact. */
 static double sin_of_quarters(double angle_deg, int quarters_on) {
@@ -20,5 +26,25 @@ double elementary_sin_deg(double angle_deg) { return sin_of_quarters(angle_deg, 
 double elementary_cos_deg(double angle_deg) { return sin_of_quarters(angle_deg, 1); }
 
 double elementary_tan_deg(double angle_deg) {
+    const double half_turn = fmod(angle_deg, 180.0); /* -180 .. 180 */
+    if (fabs(half_turn) == 45.0) return copysign(1.0, half_turn);
+    if (fabs(half_turn) == 135.0) return copysign(1.0, -half_turn);
     return elementary_sin_deg(angle_deg) / elementary_cos_deg(angle_deg);
+}
+
+double elementary_asin_deg(double sine) {
+    if (fabs(sine) == 0.5) return copysign(30.0, sine);
+    return Sleef_cinz_asind1_u10purec(sine) * degrees_per_radian;
+}
+
+double elementary_acos_deg(double cosine) {
+    if (fabs(cosine) == 0.5) return cosine > 0.0 ? 60.0 : 120.0;
+    return Sleef_cinz_acosd1_u10purec(cosine) * degrees_per_radian;
+}
+
+double elementary_atan_deg(double tangent) { return elementary_atan2_deg(tangent, 1.0); }
+
+double elementary_atan2_deg(double y, double x) {
+    if (fabs(y) == fabs(x)) return y == 0.0 ? 0.0 : copysign(x > 0.0 ? 45.0 : 135.0, y);
+    return Sleef_cinz_atan2d1_u10purec(y + 0.0, x) * degrees_per_radian; /* + 0.0: of -0 makes 0 */
 }

@@ -5,11 +5,22 @@
 #define MONGE_BASE_ELEMENTARY_H
 
 double elementary_pow(double base, double exponent);
+double elementary_exp(double x);
+double elementary_log(double x); /* to base e */
+double elementary_log2(double x);
+double elementary_log10(double x);
 
-/* Of an angle in degrees, any finite one; exact at the multiples of 90 (and sine at 30, cosine at 60).
- * Elsewhere the quotient angle / 180 adds half an ulp: sine and cosine are within 1.5, the tangent within 3.5. */
+/* Of an angle in degrees, any finite one; exact at the multiples of 90 (sine also at 30, cosine at 60, the
+ * tangent at 45). Elsewhere the quotient angle / 180 adds half an ulp: sine and cosine are within 1.5, the
+ * tangent within 3.5. The tangent of 90 is infinite. */
 double elementary_sin_deg(double angle_deg);
 double elementary_cos_deg(double angle_deg);
 double elementary_tan_deg(double angle_deg);
+
+/* Angles in degrees, within 2.5 ulp; exact at the multiples of 45, and where the sine or cosine is a half. */
+double elementary_asin_deg(double sine);
+double elementary_acos_deg(double cosine);
+double elementary_atan_deg(double tangent);
+double elementary_atan2_deg(double y, double x); /* over -180 up to 180; -0 counts as 0; 0 for a null vector */
 
 #endif

@@ -122,6 +122,8 @@ bool check_color(struct checker *ck, const struct grammar_key *key, const struct
 /* Whether the text is a colour: "#rrggbb", "#rgb" or a CSS name. */
 bool color_parse(const char *text, vec3 *out);
 
+/* The light of an sRGB part, both 0 to 1 (IEC 61966-2-1). */
+double linear_from_srgb(double c);
 /* ---- check.c ---- */
 
 /* A mapping of the kind; what is wrong in it is reported and left out. NULL: it is no mapping. Lists of

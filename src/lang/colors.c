@@ -7,8 +7,7 @@
 #include "lang/checker.h"
 #include "lang/spelling.h"
 
-/* IEC 61966-2-1. */
-static double linear_from_srgb(double c) {
+double linear_from_srgb(double c) {
     return c <= 0.04045 ? c / 12.92 : elementary_pow((c + 0.055) / 1.055, 2.4);
 }
 

@@ -1,5 +1,5 @@
-/* The language as tables. They are generated from grammar/language.yaml; so are the names KIND_X,
- * X_KEY and X_KEY_CHOICE of their rows (grammar_tables.h). */
+/* The language as tables. They are generated from grammar/; so are the names KIND_X, KEY_X_Y,
+ * CHOICE_X_Y_Z and FUNCTION_X of their rows (grammar_tables.h). */
 #ifndef MONGE_LANG_GRAMMAR_H
 #define MONGE_LANG_GRAMMAR_H
 
@@ -70,6 +70,25 @@ struct grammar_color {
 };
 extern const struct grammar_color grammar_colors[];
 extern const int grammar_color_count;
+
+/* What an expression may call. Texts that are NULL are not there. */
+struct grammar_function {
+    const char *name;
+    const char *call;           /* with its arguments: "mix(a, b, t)" */
+    unsigned least, most;       /* arguments */
+    const char *const *instead; /* words of other languages for it; ends with NULL, or is NULL */
+    const char *doc, *domain, *example, *gives;
+};
+extern const struct grammar_function grammar_functions[];
+extern const int grammar_function_count;
+
+struct grammar_constant {
+    const char *name;
+    double value;
+    const char *doc;
+};
+extern const struct grammar_constant grammar_constants[];
+extern const int grammar_constant_count;
 
 extern const struct grammar_kind grammar_kinds[];
 extern const int grammar_kind_count;
