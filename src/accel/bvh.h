@@ -36,10 +36,20 @@ struct bvh {
     box3 bounds;
 };
 
-/* Every primitive is in one of the two. */
+/* Of one set of primitives. Every shape is in one of the two trees, an instance in each that the hierarchy
+ * of its geometry has something in. Whether MATERIAL_INHERITED is clear depends on the instance around:
+ * where a geometry is placed both with clear and with other materials it has two of these, so that a
+ * search never has to sort out what it finds. */
 struct accel {
     const struct primitives *primitives;
+    const struct accel **placed; /* by index of instance: the hierarchy of its geometry */
     const struct bvh *opaque, *clear;
 };
+
+static inline bool bvh_is_empty(const struct bvh *bvh) { return !bvh->node_count && !bvh->unbounded_count; }
+
+static inline const struct bvh *accel_tree(const struct accel *accel, bool clear) {
+    return clear ? accel->clear : accel->opaque;
+}
 
 #endif
