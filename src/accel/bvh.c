@@ -299,6 +299,8 @@ static bool build_node(struct builder *b, size_t index, uint32_t first, uint32_t
         split = find_split(items, count, &centers);
     if (is_leaf(items, count, &box, &split)) {
         qsort(items, count, sizeof *items, compare_items);
+        const bool instances = primitive_ref_kind(items[count - 1].ref) == PRIMITIVE_INSTANCE;
+        node.axis = instances ? LEAF_WITH_INSTANCES : LEAF_OF_SHAPES;
         b->nodes[index] = node;
         return true;
     }

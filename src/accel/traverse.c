@@ -76,17 +76,11 @@ static inline void take(struct search *s, const struct level *level, uint32_t nu
     s->which.number[level->depth] = number;
 }
 
-static bool search_instance(struct search *s, const struct level *around, uint32_t index, bool any);
-
-/* Tests a run of primitives; true ends an any-hit search, whose end is left out of its range. */
+/* Tests a run of shapes; true ends an any-hit search, whose end is left out of its range. */
 static inline bool search_run(struct search *s, const struct level *level, const primitive_ref *refs, uint32_t count, bool any) {
     const struct primitives *primitives = level->accel->primitives;
     for (uint32_t i = 0; i < count; i++) {
         struct crossing crossing;
-        if (primitive_ref_kind(refs[i]) == PRIMITIVE_INSTANCE) {
-            if (search_instance(s, level, primitive_ref_index(refs[i]), any)) return true;
-            continue;
-        }
         if (!shape_first_crossing(primitives, refs[i], level->r, s->t_min, s->best.t, &crossing)) continue;
         if (any) {
             if (crossing.t < s->best.t) return true;
@@ -94,6 +88,18 @@ static inline bool search_run(struct search *s, const struct level *level, const
         }
         const uint32_t number = primitives_number(primitives, refs[i]);
         if (crossing.t < s->best.t || comes_first(s, level, number)) take(s, level, number, crossing);
+    }
+    return false;
+}
+
+static bool search_instance(struct search *s, const struct level *around, uint32_t index, bool any);
+
+/* The same of a run that may have instances in it. */
+static bool search_mixed_run(struct search *s, const struct level *level, const primitive_ref *refs, uint32_t count, bool any) {
+    for (uint32_t i = 0; i < count; i++) {
+        const bool instance = primitive_ref_kind(refs[i]) == PRIMITIVE_INSTANCE;
+        if (instance ? search_instance(s, level, primitive_ref_index(refs[i]), any) : search_run(s, level, refs + i, 1, any))
+            return true;
     }
     return false;
 }
@@ -133,7 +139,7 @@ static inline const struct bvh_node *pop(const struct bvh *bvh, struct stack *st
 /* True when an any-hit search has found one; else s->best is the nearest. */
 static inline bool search_tree(struct search *s, const struct level *level, bool any) {
     const struct bvh *bvh = accel_tree(level->accel, s->clear);
-    if (search_run(s, level, bvh->unbounded, bvh->unbounded_count, any)) return true;
+    if (bvh->unbounded_count && search_mixed_run(s, level, bvh->unbounded, bvh->unbounded_count, any)) return true;
     if (!bvh->node_count) return false;
     struct stack stack;
     stack.depth = 0;
@@ -143,7 +149,8 @@ static inline bool search_tree(struct search *s, const struct level *level, bool
         const struct bvh_node *child = NULL;
         if (!node->count)
             child = descend(bvh, node, &level->boxes, s, &stack);
-        else if (search_run(s, level, bvh->refs + node->first, node->count, any))
+        else if (node->axis == LEAF_WITH_INSTANCES ? search_mixed_run(s, level, bvh->refs + node->first, node->count, any)
+                                                   : search_run(s, level, bvh->refs + node->first, node->count, any))
             return true;
         node = child ? child : pop(bvh, &stack, s->best.t);
     }
@@ -153,14 +160,18 @@ static inline bool search_tree(struct search *s, const struct level *level, bool
 static void search_nearest(struct search *s, const struct level *level) { search_tree(s, level, false); }
 static bool search_any(struct search *s, const struct level *level) { return search_tree(s, level, true); }
 
-static struct level level_make(const struct accel *accel, uint32_t depth, ray r) {
-    return (struct level){accel, depth, r, box_ray_make(r)};
+static inline void level_begin(struct level *level, const struct accel *accel, uint32_t depth, ray r) {
+    level->accel = accel;
+    level->depth = depth;
+    level->r = r;
+    level->boxes = box_ray_make(r);
 }
 
 static bool search_instance(struct search *s, const struct level *around, uint32_t index, bool any) {
     const struct primitives *primitives = around->accel->primitives;
     const ray r = affine_ray(&primitives->instances[index].object_from_world, around->r);
-    const struct level level = level_make(around->accel->placed[index], around->depth + 1, r);
+    struct level level;
+    level_begin(&level, around->accel->placed[index], around->depth + 1, r);
     s->path[around->depth] = primitives->instance_number[index];
     if (any) return search_any(s, &level);
     search_nearest(s, &level);
@@ -208,8 +219,9 @@ static bool search_result(const struct search *s, const struct accel *accel, str
 }
 
 bool accel_nearest(const struct accel *accel, ray r, double t_min, double t_max, struct hit *hit) {
-    const struct level level = level_make(accel, 0, r);
+    struct level level;
     struct search s;
+    level_begin(&level, accel, 0, r);
     search_begin(&s, t_min, t_max);
     s.clear = false;
     search_nearest(&s, &level);
@@ -220,8 +232,9 @@ bool accel_nearest(const struct accel *accel, ray r, double t_min, double t_max,
 
 bool accel_nearest_clear(const struct accel *accel, ray r, double t_min, double t_max, struct hit *hit) {
     if (bvh_is_empty(accel->clear)) return false; /* most scenes */
-    const struct level level = level_make(accel, 0, r);
+    struct level level;
     struct search s;
+    level_begin(&level, accel, 0, r);
     search_begin(&s, t_min, t_max);
     s.clear = true;
     search_nearest(&s, &level);
@@ -229,8 +242,9 @@ bool accel_nearest_clear(const struct accel *accel, ray r, double t_min, double 
 }
 
 bool accel_any(const struct accel *accel, ray r, double t_min, double t_max) {
-    const struct level level = level_make(accel, 0, r);
+    struct level level;
     struct search s;
+    level_begin(&level, accel, 0, r);
     search_begin(&s, t_min, t_max);
     s.clear = false;
     return search_any(&s, &level);
