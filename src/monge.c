@@ -120,10 +120,9 @@ size_t monge_scene_primitives(const struct monge_scene *scene) { return scene->s
 
 static struct accel *scene_accel(struct monge_scene *scene) {
     const struct scene *s = &scene->scene;
-    bool *clear = arena_array(&scene->arena, s->primitives.count, sizeof *clear);
-    for (uint32_t i = 0; i < s->primitives.count; i++)
-        clear[i] = vec3_max_abs(s->materials[s->primitives.info[i].material].refraction) > 0.0;
-    return accel_build(&scene->arena, &s->primitives, clear);
+    bool *clear = arena_array(&scene->arena, s->material_count, sizeof *clear);
+    for (uint32_t i = 0; i < s->material_count; i++) clear[i] = vec3_max_abs(s->materials[i].refraction) > 0.0;
+    return accel_build(&scene->arena, &s->primitives, s->geometries, s->geometry_count, clear);
 }
 
 bool monge_scene_prepare(struct monge_scene *scene) {

@@ -1,5 +1,6 @@
 /* Finds what a ray hits among many primitives: bounding volume hierarchies behind the questions
- * nearest hit and any hit. */
+ * nearest hit and any hit. A geometry has one hierarchy, however often it is placed: the instances
+ * are leaves of the hierarchies above, and a ray that meets one goes on in the geometry's space. */
 #ifndef MONGE_ACCEL_ACCEL_H
 #define MONGE_ACCEL_ACCEL_H
 
@@ -8,19 +9,32 @@
 
 struct accel;
 
-/* Builds hierarchies over the primitives, which must outlive them; they live in `arena`. The same
- * trees for the same primitives, always. `clear` tells of each number whether the primitive lets light
- * through, and is read here alone; NULL: none does. */
-struct accel *accel_build(struct arena *arena, const struct primitives *primitives, const bool *clear);
+/* Builds hierarchies over the primitives and the geometries that their instances place, all of which
+ * must outlive them; they live in `arena`. The same trees for the same primitives, always.
+ *   geometries  each holds instances of earlier ones alone, not more than INSTANCE_MAX_DEPTH within each
+ *               other; may be NULL where there are no instances
+ *   clear       tells of each material whether it lets light through, and is read here alone; NULL: none does */
+struct accel *accel_build(struct arena *arena, const struct primitives *primitives, const struct primitives *geometries,
+                          uint32_t geometry_count, const bool *clear);
 
-struct hit {
-    uint32_t number; /* of the primitive */
-    struct crossing crossing;
+/* One of the primitives that there are with all instances carried out: the numbers of the instances around it,
+ * outermost first, each in the set of primitives that it is in, and then its own. */
+struct occurrence {
+    uint32_t depth; /* instances around */
+    uint32_t number[INSTANCE_MAX_DEPTH + 1]; /* number[depth] is the primitive's; none beyond is set */
 };
 
-/* The hit with the smallest t in t_min < t <= t_max; of equal ones, that of the lowest primitive
- * number. So the answer depends on the primitives alone, not on the tree. False, leaving *hit alone,
- * where there is none. Thread-safe, allocates nothing. */
+struct hit {
+    struct crossing crossing;
+    const struct primitives *set; /* that the primitive is in: the scene's or a geometry's */
+    primitive_ref ref;            /* in `set` */
+    uint32_t material;            /* MATERIAL_INHERITED only where no instance around has one */
+    struct occurrence which;
+};
+
+/* The hit with the smallest t in t_min < t <= t_max; of equal ones, that of the lowest number in the
+ * outermost set where they differ. So the answer depends on the primitives alone, not on the tree.
+ * False, leaving *hit alone, where there is none. Thread-safe, allocates nothing. */
 bool accel_nearest(const struct accel *accel, ray r, double t_min, double t_max, struct hit *hit);
 
 /* Whether anything that is not clear is hit in t_min < t < t_max: the end is left out, so that a ray
@@ -30,7 +44,29 @@ bool accel_any(const struct accel *accel, ray r, double t_min, double t_max);
 /* As accel_nearest, of the clear primitives alone. */
 bool accel_nearest_clear(const struct accel *accel, ray r, double t_min, double t_max, struct hit *hit);
 
+/* The surface, in world space, at a hit that this ray had. */
+struct surface accel_surface(const struct accel *accel, ray r, const struct hit *hit);
+
+/* Calls visit for every clear primitive whose bounds hold the origin of `r`, in an order that is always
+ * the same: with its hit, of which the crossing is not set, and the ray in the space that its set is in,
+ * with the same t. Thread-safe, allocates nothing. */
+void accel_around(const struct accel *accel, ray r, void (*visit)(void *context, const struct hit *hit, ray in_set),
+                  void *context);
+
+/* How far the bounded primitives reach along a world-space direction of any length: the largest dot
+ * product with it. -INFINITY where there are none. Exact to rounding for the scene's own primitives and
+ * to 1e-6 of the scene's size for placed ones; where those are too many, not too small. */
+double accel_support(const struct accel *accel, vec3 direction);
+
 /* The box around all bounded primitives; empty where there are none. World space. */
 box3 accel_bounds(const struct accel *accel);
+
+/* Whether two are the same. */
+static inline bool occurrence_equal(const struct occurrence *a, const struct occurrence *b) {
+    if (a->depth != b->depth) return false;
+    for (uint32_t i = 0; i <= a->depth; i++)
+        if (a->number[i] != b->number[i]) return false;
+    return true;
+}
 
 #endif

@@ -11,7 +11,7 @@ enum { BINS = 16 };
 /* Of a test of two boxes and of one primitive, measured as about that, in tests of a sphere. */
 static const float BOXES_COST = 3.0f;
 static const float TEST_COST[] = {
-    [PRIMITIVE_SPHERE] = 1.0f, [PRIMITIVE_FLAT] = 1.0f, [PRIMITIVE_QUADRIC] = 3.0f};
+    [PRIMITIVE_SPHERE] = 1.0f, [PRIMITIVE_FLAT] = 1.0f, [PRIMITIVE_QUADRIC] = 3.0f, [PRIMITIVE_INSTANCE] = 10.0f};
 
 /* A box that a union of nothing leaves upside down. */
 struct bounds {
@@ -95,28 +95,49 @@ static bool bounds_are_finite(const struct bounds *b) {
     return true;
 }
 
-/* The primitives that a tree is built of: those with clear[number] == which, or all if clear is NULL
- * and which is false. */
+/* What a tree is built of: the part of accel->primitives that is clear, or the part that is not. */
 struct choice {
-    const struct primitives *primitives;
-    const bool *clear;
+    const struct accel *accel;
+    const bool *clear;    /* by material; NULL: none is */
+    bool inherited_clear; /* what MATERIAL_INHERITED stands for */
     bool which;
 };
 
+static bool is_chosen(const struct choice *choice, uint32_t material) {
+    const bool clear = material == MATERIAL_INHERITED ? choice->inherited_clear : choice->clear && choice->clear[material];
+    return clear == choice->which;
+}
+
+static void add_unbounded(struct builder *b, primitive_ref ref) { b->unbounded[b->unbounded_count++] = ref; }
+
+static void add_bounded(struct builder *b, primitive_ref ref, box3 box) {
+    const struct bounds around = bounds_around(box);
+    if (box3_is_bounded(box)) b->bounds = box3_union(b->bounds, box);
+    if (bounds_are_finite(&around)) b->items[b->item_count++] = (struct item){around, ref};
+    else add_unbounded(b, ref);
+}
+
+static void collect_instance(struct builder *b, const struct choice *choice, primitive_ref ref) {
+    const uint32_t index = primitive_ref_index(ref);
+    const struct bvh *placed = accel_tree(choice->accel->placed[index], choice->which);
+    const box3 box = shape_placed_bounds(&choice->accel->primitives->instances[index], placed->bounds);
+    if (bvh_is_empty(placed)) return;
+    if (!placed->unbounded_count) {
+        add_bounded(b, ref, box);
+    } else {
+        if (box3_is_bounded(box)) b->bounds = box3_union(b->bounds, box);
+        add_unbounded(b, ref);
+    }
+}
+
 /* Sorts the chosen primitives into items and the unbounded. */
 static void collect(struct builder *b, const struct choice *choice) {
-    const struct primitives *primitives = choice->primitives;
+    const struct primitives *primitives = choice->accel->primitives;
     b->bounds = BOX3_EMPTY;
     for (uint32_t i = 0; i < primitives->count; i++) {
-        if ((choice->clear && choice->clear[i]) != choice->which) continue;
-        const primitive_ref ref = primitives->info[i].ref;
-        const box3 box = shape_bounds(primitives, ref);
-        const struct bounds around = bounds_around(box);
-        if (box3_is_bounded(box)) b->bounds = box3_union(b->bounds, box);
-        if (bounds_are_finite(&around))
-            b->items[b->item_count++] = (struct item){around, ref};
-        else
-            b->unbounded[b->unbounded_count++] = ref;
+        const struct primitive_info *info = &primitives->info[i];
+        if (primitive_ref_kind(info->ref) == PRIMITIVE_INSTANCE) collect_instance(b, choice, info->ref);
+        else if (is_chosen(choice, info->material)) add_bounded(b, info->ref, shape_bounds(primitives, info->ref));
     }
 }
 
@@ -278,6 +299,8 @@ static bool build_node(struct builder *b, size_t index, uint32_t first, uint32_t
         split = find_split(items, count, &centers);
     if (is_leaf(items, count, &box, &split)) {
         qsort(items, count, sizeof *items, compare_items);
+        const bool instances = primitive_ref_kind(items[count - 1].ref) == PRIMITIVE_INSTANCE;
+        node.axis = instances ? LEAF_WITH_INSTANCES : LEAF_OF_SHAPES;
         b->nodes[index] = node;
         return true;
     }
@@ -297,8 +320,9 @@ static bool build_node(struct builder *b, size_t index, uint32_t first, uint32_t
 
 /* False: memory is out. */
 static bool build(struct builder *b, const struct choice *choice) {
-    b->items = malloc(((size_t)choice->primitives->count + 1) * sizeof *b->items);
-    b->unbounded = malloc(((size_t)choice->primitives->count + 1) * sizeof *b->unbounded);
+    const size_t room = (size_t)choice->accel->primitives->count + 1;
+    b->items = malloc(room * sizeof *b->items);
+    b->unbounded = malloc(room * sizeof *b->unbounded);
     if (!b->items || !b->unbounded) return false;
     collect(b, choice);
     if (!b->item_count) return true;
@@ -359,12 +383,74 @@ static const struct bvh *bvh_build(struct arena *arena, const struct choice *cho
     return bvh ? bvh : arena_alloc(arena, SIZE_MAX); /* no memory: leave as a full arena does */
 }
 
-struct accel *accel_build(struct arena *arena, const struct primitives *primitives, const bool *clear) {
-    struct accel *accel = arena_alloc(arena, sizeof *accel);
-    accel->primitives = primitives;
-    accel->opaque = bvh_build(arena, &(struct choice){primitives, clear, false});
-    accel->clear = bvh_build(arena, &(struct choice){primitives, clear, true});
+/* ---- Geometries ---- */
+
+/* What is to be known of a geometry, and what is built of it; by what MATERIAL_INHERITED stands for in it:
+ * something that is clear (1) or not (0). One without primitives that inherit has 0 alone. */
+struct geometry {
+    uint32_t depth; /* instances within each other, below its own primitives */
+    bool inherits;
+    bool needed[2];
+    const struct accel *built[2];
+};
+
+struct build {
+    struct arena *arena;
+    const struct primitives *geometries;
+    struct geometry *known; /* by index of geometry */
+    const bool *clear;
+};
+
+/* Which of a geometry's two hierarchies an instance places. */
+static bool variant_of(const struct build *build, const struct instance *instance, bool inherited_clear) {
+    if (!build->known[instance->geometry].inherits) return false;
+    if (instance->material == MATERIAL_INHERITED) return inherited_clear;
+    return build->clear && build->clear[instance->material];
+}
+
+static void survey(struct build *build, uint32_t index) {
+    const struct primitives *p = &build->geometries[index];
+    struct geometry *g = &build->known[index];
+    for (uint32_t i = 0; i < p->count; i++)
+        if (primitive_ref_kind(p->info[i].ref) != PRIMITIVE_INSTANCE) g->inherits |= p->info[i].material == MATERIAL_INHERITED;
+    for (uint32_t i = 0; i < p->instance_count; i++) {
+        assert(p->instances[i].geometry < index);
+        const struct geometry *inner = &build->known[p->instances[i].geometry];
+        g->inherits |= inner->inherits && p->instances[i].material == MATERIAL_INHERITED;
+        if (g->depth <= inner->depth) g->depth = inner->depth + 1;
+    }
+    assert(g->depth < INSTANCE_MAX_DEPTH);
+}
+
+static void mark_needed(struct build *build, const struct primitives *p, bool inherited_clear) {
+    for (uint32_t i = 0; i < p->instance_count; i++)
+        build->known[p->instances[i].geometry].needed[variant_of(build, &p->instances[i], inherited_clear)] = true;
+}
+
+static struct accel *build_set(const struct build *build, const struct primitives *p, bool inherited_clear) {
+    struct accel *accel = arena_alloc(build->arena, sizeof *accel);
+    accel->primitives = p;
+    accel->placed = arena_array(build->arena, p->instance_count, sizeof *accel->placed);
+    for (uint32_t i = 0; i < p->instance_count; i++)
+        accel->placed[i] = build->known[p->instances[i].geometry].built[variant_of(build, &p->instances[i], inherited_clear)];
+    accel->opaque = bvh_build(build->arena, &(struct choice){accel, build->clear, inherited_clear, false});
+    accel->clear = bvh_build(build->arena, &(struct choice){accel, build->clear, inherited_clear, true});
     return accel;
+}
+
+struct accel *accel_build(struct arena *arena, const struct primitives *primitives, const struct primitives *geometries,
+                          uint32_t geometry_count, const bool *clear) {
+    struct geometry *known = arena_array(arena, geometry_count, sizeof *known);
+    struct build build = {arena, geometries, known, clear};
+    for (uint32_t i = 0; i < geometry_count; i++) survey(&build, i);
+    mark_needed(&build, primitives, false);
+    for (uint32_t i = geometry_count; i-- > 0;)
+        for (int variant = 0; variant < 2; variant++)
+            if (known[i].needed[variant]) mark_needed(&build, &geometries[i], variant);
+    for (uint32_t i = 0; i < geometry_count; i++)
+        for (int variant = 0; variant < 2; variant++)
+            if (known[i].needed[variant]) known[i].built[variant] = build_set(&build, &geometries[i], variant);
+    return build_set(&build, primitives, false);
 }
 
 box3 accel_bounds(const struct accel *accel) { return box3_union(accel->opaque->bounds, accel->clear->bounds); }

@@ -20,11 +20,13 @@ enum { ACCEL_LEAF_SIZE = 4 }; /* primitives of a leaf, at most */
 /* No node is deeper below the root, whatever the scene, so a traversal needs a stack of this. */
 enum { ACCEL_MAX_DEPTH = 64 };
 
+enum { LEAF_OF_SHAPES, LEAF_WITH_INSTANCES };
+
 struct bvh_node {
     float bounds[6]; /* min x y z, max x y z; world space */
     uint32_t first;  /* of a leaf: into refs; else the first child, and the second comes after it */
     uint16_t count;  /* of a leaf: its primitives; else 0 */
-    uint16_t axis;   /* along which the first child comes before the second */
+    uint16_t axis;   /* along which the first child comes before the second; of a leaf: LEAF_OF_SHAPES or not */
 };
 
 struct bvh {
@@ -36,10 +38,20 @@ struct bvh {
     box3 bounds;
 };
 
-/* Every primitive is in one of the two. */
+/* Of one set of primitives. Every shape is in one of the two trees, an instance in each that the hierarchy
+ * of its geometry has something in. Whether MATERIAL_INHERITED is clear depends on the instance around:
+ * where a geometry is placed both with clear and with other materials it has two of these, so that a
+ * search never has to sort out what it finds. */
 struct accel {
     const struct primitives *primitives;
+    const struct accel **placed; /* by index of instance: the hierarchy of its geometry */
     const struct bvh *opaque, *clear;
 };
+
+static inline bool bvh_is_empty(const struct bvh *bvh) { return !bvh->node_count && !bvh->unbounded_count; }
+
+static inline const struct bvh *accel_tree(const struct accel *accel, bool clear) {
+    return clear ? accel->clear : accel->opaque;
+}
 
 #endif

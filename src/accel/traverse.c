@@ -10,13 +10,21 @@ struct box_ray {
     size_t near_plane[3], far_plane[3]; /* which of a node's six planes come first and last */
 };
 
-/* What was found so far; a candidate must have t <= crossing.t. */
+/* What was found so far; a candidate must have t <= best.t. */
 struct search {
-    const struct primitives *primitives;
+    double t_min;
+    bool clear; /* which trees are searched */
+    struct crossing best;
+    struct occurrence which; /* of the best; the number UINT32_MAX: none yet */
+    uint32_t path[INSTANCE_MAX_DEPTH]; /* numbers of the instances that the search is in, outermost first */
+};
+
+/* The ray in one set of primitives, that of the scene or of a geometry. t is the same in all. */
+struct level {
+    const struct accel *accel;
+    uint32_t depth; /* of instances around */
     ray r;
     struct box_ray boxes; /* r again */
-    double t_min;
-    struct hit best;
 };
 
 static struct box_ray box_ray_make(ray r) {
@@ -54,19 +62,44 @@ static inline bool box_meet(const struct bvh_node *node, const struct box_ray *b
     return *enter <= leave;
 }
 
-/* Tests a run of primitives; true ends an any-hit search, whose end is left out of its range. */
-static inline bool search_run(struct search *s, const primitive_ref *refs, uint32_t count, bool any) {
+/* Whether a primitive of the level comes before the best one, at the same t. */
+static bool comes_first(const struct search *s, const struct level *level, uint32_t number) {
+    for (uint32_t i = 0; i < level->depth; i++)
+        if (s->path[i] != s->which.number[i]) return s->path[i] < s->which.number[i];
+    return number < s->which.number[level->depth];
+}
+
+static inline void take(struct search *s, const struct level *level, uint32_t number, struct crossing crossing) {
+    s->best = crossing;
+    s->which.depth = level->depth;
+    for (uint32_t i = 0; i < level->depth; i++) s->which.number[i] = s->path[i];
+    s->which.number[level->depth] = number;
+}
+
+/* Tests a run of shapes; true ends an any-hit search, whose end is left out of its range. */
+static inline bool search_run(struct search *s, const struct level *level, const primitive_ref *refs, uint32_t count, bool any) {
+    const struct primitives *primitives = level->accel->primitives;
     for (uint32_t i = 0; i < count; i++) {
         struct crossing crossing;
-        if (!shape_first_crossing(s->primitives, refs[i], s->r, s->t_min, s->best.crossing.t, &crossing))
-            continue;
+        if (!shape_first_crossing(primitives, refs[i], level->r, s->t_min, s->best.t, &crossing)) continue;
         if (any) {
-            if (crossing.t < s->best.crossing.t) return true;
+            if (crossing.t < s->best.t) return true;
             continue;
         }
-        const uint32_t number = primitives_number(s->primitives, refs[i]);
-        if (crossing.t < s->best.crossing.t || number < s->best.number)
-            s->best = (struct hit){number, crossing};
+        const uint32_t number = primitives_number(primitives, refs[i]);
+        if (crossing.t < s->best.t || comes_first(s, level, number)) take(s, level, number, crossing);
+    }
+    return false;
+}
+
+static bool search_instance(struct search *s, const struct level *around, uint32_t index, bool any);
+
+/* The same of a run that may have instances in it. */
+static bool search_mixed_run(struct search *s, const struct level *level, const primitive_ref *refs, uint32_t count, bool any) {
+    for (uint32_t i = 0; i < count; i++) {
+        const bool instance = primitive_ref_kind(refs[i]) == PRIMITIVE_INSTANCE;
+        if (instance ? search_instance(s, level, primitive_ref_index(refs[i]), any) : search_run(s, level, refs + i, 1, any))
+            return true;
     }
     return false;
 }
@@ -82,14 +115,13 @@ struct stack {
 
 /* The child to go to first, the other one on the stack if it is met too; NULL where none is. A box
  * that begins just at the best t is met: it may hold an equal hit of a lower number. */
-static inline const struct bvh_node *descend(const struct bvh *bvh, const struct bvh_node *node,
+static inline const struct bvh_node *descend(const struct bvh *bvh, const struct bvh_node *node, const struct box_ray *boxes,
                                              const struct search *s, struct stack *stack) {
-    const struct box_ray *boxes = &s->boxes;
     const bool down = boxes->near_plane[node->axis] >= 3;
     const uint32_t near = node->first + down, far = node->first + !down;
     double near_enter, far_enter;
-    const bool meets_near = box_meet(&bvh->nodes[near], boxes, s->t_min, s->best.crossing.t, &near_enter);
-    const bool meets_far = box_meet(&bvh->nodes[far], boxes, s->t_min, s->best.crossing.t, &far_enter);
+    const bool meets_near = box_meet(&bvh->nodes[near], boxes, s->t_min, s->best.t, &near_enter);
+    const bool meets_far = box_meet(&bvh->nodes[far], boxes, s->t_min, s->best.t, &far_enter);
     if (!meets_near) return meets_far ? &bvh->nodes[far] : NULL;
     if (meets_far) {
         stack->at[stack->depth].node = far;
@@ -105,45 +137,130 @@ static inline const struct bvh_node *pop(const struct bvh *bvh, struct stack *st
 }
 
 /* True when an any-hit search has found one; else s->best is the nearest. */
-static inline bool search_all(struct search *s, const struct bvh *bvh, bool any) {
-    if (search_run(s, bvh->unbounded, bvh->unbounded_count, any)) return true;
+static inline bool search_tree(struct search *s, const struct level *level, bool any) {
+    const struct bvh *bvh = accel_tree(level->accel, s->clear);
+    if (bvh->unbounded_count && search_mixed_run(s, level, bvh->unbounded, bvh->unbounded_count, any)) return true;
     if (!bvh->node_count) return false;
     struct stack stack;
     stack.depth = 0;
     double enter;
-    if (!box_meet(bvh->nodes, &s->boxes, s->t_min, s->best.crossing.t, &enter)) return false;
+    if (!box_meet(bvh->nodes, &level->boxes, s->t_min, s->best.t, &enter)) return false;
     for (const struct bvh_node *node = bvh->nodes; node;) {
         const struct bvh_node *child = NULL;
         if (!node->count)
-            child = descend(bvh, node, s, &stack);
-        else if (search_run(s, bvh->refs + node->first, node->count, any))
+            child = descend(bvh, node, &level->boxes, s, &stack);
+        else if (node->axis == LEAF_WITH_INSTANCES ? search_mixed_run(s, level, bvh->refs + node->first, node->count, any)
+                                                   : search_run(s, level, bvh->refs + node->first, node->count, any))
             return true;
-        node = child ? child : pop(bvh, &stack, s->best.crossing.t);
+        node = child ? child : pop(bvh, &stack, s->best.t);
     }
     return false;
 }
 
-static bool search_result(const struct search *s, struct hit *hit) {
-    if (s->best.number == UINT32_MAX) return false;
-    *hit = s->best;
+static void search_nearest(struct search *s, const struct level *level) { search_tree(s, level, false); }
+static bool search_any(struct search *s, const struct level *level) { return search_tree(s, level, true); }
+
+static inline void level_begin(struct level *level, const struct accel *accel, uint32_t depth, ray r) {
+    level->accel = accel;
+    level->depth = depth;
+    level->r = r;
+    level->boxes = box_ray_make(r);
+}
+
+static bool search_instance(struct search *s, const struct level *around, uint32_t index, bool any) {
+    const struct primitives *primitives = around->accel->primitives;
+    const ray r = affine_ray(&primitives->instances[index].object_from_world, around->r);
+    struct level level;
+    level_begin(&level, around->accel->placed[index], around->depth + 1, r);
+    s->path[around->depth] = primitives->instance_number[index];
+    if (any) return search_any(s, &level);
+    search_nearest(s, &level);
+    return false;
+}
+
+/* ---- The questions ---- */
+
+static inline void search_begin(struct search *s, double t_min, double t_max) {
+    s->t_min = t_min;
+    s->best.t = t_max;
+    s->which.number[0] = UINT32_MAX;
+}
+
+static const struct instance *instance_of(const struct primitives *p, uint32_t number) {
+    return &p->instances[primitive_ref_index(p->info[number].ref)];
+}
+
+/* Sets what `which` tells: the primitive and its material. */
+static void resolve(const struct accel *accel, struct hit *hit) {
+    uint32_t inherited = MATERIAL_INHERITED;
+    const struct occurrence *which = &hit->which;
+    for (uint32_t i = 0; i < which->depth; i++) {
+        const struct instance *instance = instance_of(accel->primitives, which->number[i]);
+        if (instance->material != MATERIAL_INHERITED) inherited = instance->material;
+        accel = accel->placed[instance - accel->primitives->instances];
+    }
+    const struct primitive_info *info = &accel->primitives->info[which->number[which->depth]];
+    hit->set = accel->primitives;
+    hit->ref = info->ref;
+    hit->material = info->material == MATERIAL_INHERITED ? inherited : info->material;
+}
+
+static inline void occurrence_copy(struct occurrence *to, const struct occurrence *from) {
+    to->depth = from->depth;
+    for (uint32_t i = 0; i <= from->depth; i++) to->number[i] = from->number[i];
+}
+
+static bool search_result(const struct search *s, const struct accel *accel, struct hit *hit) {
+    if (s->which.number[0] == UINT32_MAX) return false;
+    hit->crossing = s->best;
+    occurrence_copy(&hit->which, &s->which);
+    resolve(accel, hit);
     return true;
 }
 
 bool accel_nearest(const struct accel *accel, ray r, double t_min, double t_max, struct hit *hit) {
-    struct search s = {accel->primitives, r, box_ray_make(r), t_min, {UINT32_MAX, {.t = t_max}}};
-    search_all(&s, accel->opaque, false);
-    search_all(&s, accel->clear, false);
-    return search_result(&s, hit);
+    struct level level;
+    struct search s;
+    level_begin(&level, accel, 0, r);
+    search_begin(&s, t_min, t_max);
+    s.clear = false;
+    search_nearest(&s, &level);
+    s.clear = true;
+    search_nearest(&s, &level);
+    return search_result(&s, accel, hit);
 }
 
 bool accel_nearest_clear(const struct accel *accel, ray r, double t_min, double t_max, struct hit *hit) {
-    if (!accel->clear->node_count && !accel->clear->unbounded_count) return false; /* most scenes */
-    struct search s = {accel->primitives, r, box_ray_make(r), t_min, {UINT32_MAX, {.t = t_max}}};
-    search_all(&s, accel->clear, false);
-    return search_result(&s, hit);
+    if (bvh_is_empty(accel->clear)) return false; /* most scenes */
+    struct level level;
+    struct search s;
+    level_begin(&level, accel, 0, r);
+    search_begin(&s, t_min, t_max);
+    s.clear = true;
+    search_nearest(&s, &level);
+    return search_result(&s, accel, hit);
 }
 
 bool accel_any(const struct accel *accel, ray r, double t_min, double t_max) {
-    struct search s = {accel->primitives, r, box_ray_make(r), t_min, {UINT32_MAX, {.t = t_max}}};
-    return search_all(&s, accel->opaque, true);
+    struct level level;
+    struct search s;
+    level_begin(&level, accel, 0, r);
+    search_begin(&s, t_min, t_max);
+    s.clear = false;
+    return search_any(&s, &level);
+}
+
+struct surface accel_surface(const struct accel *accel, ray r, const struct hit *hit) {
+    const struct instance *chain[INSTANCE_MAX_DEPTH];
+    box3 extent[INSTANCE_MAX_DEPTH];
+    const uint32_t depth = hit->which.depth;
+    for (uint32_t i = 0; i < depth; i++) {
+        chain[i] = instance_of(accel->primitives, hit->which.number[i]);
+        r = affine_ray(&chain[i]->object_from_world, r);
+        accel = accel->placed[chain[i] - accel->primitives->instances];
+        extent[i] = accel_bounds(accel);
+    }
+    struct surface surface = shape_surface(hit->set, hit->ref, r, hit->crossing);
+    for (uint32_t i = depth; i-- > 0;) surface = shape_placed_surface(chain[i], &surface, extent[i]);
+    return surface;
 }

@@ -1,7 +1,6 @@
 #include "render/camera.h"
 
 #include "base/elementary.h"
-#include "shape/shape.h"
 
 static const vec3 default_direction = {-0.45, -0.38, -1.0}; /* from in front, above and right */
 static const double margin = 1.2;                           /* of the picture around a framed scene */
@@ -20,12 +19,8 @@ static void set_axes(struct view *view, const struct camera *camera, vec3 forwar
 /* ---- Framing: where to stand so that all bounded primitives are in the picture ---- */
 
 /* How far the bounded primitives reach along the direction; a unit ball stands for none. */
-static double reach(const struct primitives *p, vec3 direction) {
-    double most = -INFINITY;
-    for (uint32_t i = 0; i < p->count; i++) {
-        const double one = shape_support(p, p->info[i].ref, direction);
-        if (one > most && one < INFINITY) most = one;
-    }
+static double reach(const struct accel *accel, vec3 direction) {
+    const double most = accel_support(accel, direction);
     return most > -INFINITY ? most : vec3_length(direction);
 }
 
@@ -33,36 +28,36 @@ static double reach(const struct primitives *p, vec3 direction) {
  * half width `tangent` at distance one just hold the scene. A side with the normal n holds it where
  * n . eye >= reach(n); the two are n = +-axis - tangent forward. With `through`, a point to keep in
  * the middle, `place` is its own. `back` is along -forward from the origin. */
-static void stand(const struct primitives *p, const struct view *view, vec3 axis, double tangent, const vec3 *through,
+static void stand(const struct accel *accel, const struct view *view, vec3 axis, double tangent, const vec3 *through,
                   double *place, double *back) {
     const vec3 inward = vec3_scale(view->forward, -tangent);
-    const double high = reach(p, vec3_add(inward, axis)), low = reach(p, vec3_sub(inward, axis));
+    const double high = reach(accel, vec3_add(inward, axis)), low = reach(accel, vec3_sub(inward, axis));
     *place = through ? vec3_dot(*through, axis) : 0.5 * (high - low);
     *back = box3_upper(high - *place, low + *place) / tangent;
 }
 
-static vec3 perspective_eye(const struct primitives *p, const struct view *view, double tan_x, double tan_y, const vec3 *through) {
+static vec3 perspective_eye(const struct accel *accel, const struct view *view, double tan_x, double tan_y, const vec3 *through) {
     double x, y, back_x, back_y;
-    stand(p, view, view->right, tan_x / margin, through, &x, &back_x);
-    stand(p, view, view->up, tan_y / margin, through, &y, &back_y);
+    stand(accel, view, view->right, tan_x / margin, through, &x, &back_x);
+    stand(accel, view, view->up, tan_y / margin, through, &y, &back_y);
     const vec3 across = vec3_madd(vec3_scale(view->right, x), y, view->up);
     return vec3_madd(across, -box3_upper(back_x, back_y), view->forward);
 }
 
 /* An orthographic camera stands in front of everything. */
-static vec3 orthographic_eye(const struct primitives *p, const struct view *view, const vec3 *through) {
-    const double front = reach(p, vec3_neg(view->forward)), depth = front + reach(p, view->forward);
-    const double x = 0.5 * (reach(p, view->right) - reach(p, vec3_neg(view->right)));
-    const double y = 0.5 * (reach(p, view->up) - reach(p, vec3_neg(view->up)));
+static vec3 orthographic_eye(const struct accel *accel, const struct view *view, const vec3 *through) {
+    const double front = reach(accel, vec3_neg(view->forward)), depth = front + reach(accel, view->forward);
+    const double x = 0.5 * (reach(accel, view->right) - reach(accel, vec3_neg(view->right)));
+    const double y = 0.5 * (reach(accel, view->up) - reach(accel, vec3_neg(view->up)));
     const vec3 middle = through ? *through : vec3_madd(vec3_scale(view->right, x), y, view->up);
     return vec3_madd(middle, -(front + vec3_dot(middle, view->forward) + depth), view->forward);
 }
 
 /* Half the height of an orthographic view from `eye` that holds the scene. */
-static double orthographic_half(const struct primitives *p, const struct view *view, vec3 eye, double aspect) {
+static double orthographic_half(const struct accel *accel, const struct view *view, vec3 eye, double aspect) {
     const double x = vec3_dot(eye, view->right), y = vec3_dot(eye, view->up);
-    const double wide = box3_upper(reach(p, view->right) - x, reach(p, vec3_neg(view->right)) + x);
-    const double high = box3_upper(reach(p, view->up) - y, reach(p, vec3_neg(view->up)) + y);
+    const double wide = box3_upper(reach(accel, view->right) - x, reach(accel, vec3_neg(view->right)) + x);
+    const double high = box3_upper(reach(accel, view->up) - y, reach(accel, vec3_neg(view->up)) + y);
     return margin * box3_upper(wide / aspect, high);
 }
 
@@ -75,9 +70,9 @@ static vec3 view_direction(const struct camera *camera, vec3 middle) {
     return vec3_max_abs(to_middle) > 0.0 ? to_middle : (vec3){0, 0, -1};
 }
 
-struct view camera_view(const struct scene *scene, box3 bounds, uint32_t width, uint32_t height) {
+struct view camera_view(const struct scene *scene, const struct accel *accel, uint32_t width, uint32_t height) {
     const struct camera *camera = &scene->camera;
-    const struct primitives *p = &scene->primitives;
+    const box3 bounds = accel_bounds(accel);
     const vec3 center = box3_is_bounded(bounds) ? box3_center(bounds) : (vec3){0, 0, 0};
     const vec3 middle = camera->has_look_at ? camera->look_at : center;
     const vec3 *through = camera->has_look_at ? &middle : NULL;
@@ -87,13 +82,13 @@ struct view camera_view(const struct scene *scene, box3 bounds, uint32_t width, 
     set_axes(&view, camera, view_direction(camera, middle));
 
     if (camera->has_eye) view.eye = camera->eye;
-    else if (view.orthographic) view.eye = orthographic_eye(p, &view, through);
-    else view.eye = perspective_eye(p, &view, tan_x, tan_y, through);
+    else if (view.orthographic) view.eye = orthographic_eye(accel, &view, through);
+    else view.eye = perspective_eye(accel, &view, tan_x, tan_y, through);
     view.distance = vec3_length(vec3_sub(middle, view.eye));
 
     const double half = !view.orthographic   ? tan_y
                         : camera->has_height ? 0.5 * camera->height
-                                             : orthographic_half(p, &view, view.eye, aspect);
+                                             : orthographic_half(accel, &view, view.eye, aspect);
     view.right = vec3_scale(view.right, half * aspect);
     view.up = vec3_scale(view.up, half);
     return view;

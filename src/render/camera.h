@@ -2,7 +2,7 @@
 #ifndef MONGE_RENDER_CAMERA_H
 #define MONGE_RENDER_CAMERA_H
 
-#include "base/ray.h"
+#include "accel/accel.h"
 #include "scene/scene.h"
 
 /* World space. `right` and `up` reach from the middle of the picture to its right and upper edge, at
@@ -13,8 +13,8 @@ struct view {
     double distance; /* from the eye to what is looked at; for placing default lights */
 };
 
-/* For a picture of this size. `bounds` is that of the bounded primitives; may be empty. */
-struct view camera_view(const struct scene *scene, box3 bounds, uint32_t width, uint32_t height);
+/* For a picture of this size. */
+struct view camera_view(const struct scene *scene, const struct accel *accel, uint32_t width, uint32_t height);
 
 /* The ray through the point (x, y) of the picture, in 0..1 from its top left corner. Its direction
  * is not unit. */

@@ -1,7 +1,5 @@
 #include "render/media.h"
 
-#include "shape/shape.h"
-
 double media_index(const struct media *media) { return media->count ? media->inside[media->count - 1].index : 1.0; }
 
 static const struct flat *as_plane(const struct primitives *p, primitive_ref ref) {
@@ -14,45 +12,36 @@ static bool divides_space(const struct primitives *p, primitive_ref ref) {
     return as_plane(p, ref) || shape_is_solid(p, ref);
 }
 
-static double index_of(const struct scene *scene, uint32_t number) {
-    return scene->materials[scene->primitives.info[number].material].index;
-}
-
-struct media media_enter(const struct scene *scene, const struct media *media, uint32_t number) {
+struct media media_enter(const struct scene *scene, const struct media *media, const struct hit *hit) {
     struct media after = *media;
-    if (after.count == MEDIA_MAX || !divides_space(&scene->primitives, scene->primitives.info[number].ref)) return after;
-    after.inside[after.count].number = number;
-    after.inside[after.count++].index = index_of(scene, number);
+    if (after.count == MEDIA_MAX || !divides_space(hit->set, hit->ref)) return after;
+    after.inside[after.count].which = &hit->which;
+    after.inside[after.count++].index = scene->materials[hit->material].index;
     return after;
 }
 
-struct media media_leave(const struct media *media, uint32_t number, bool *was_inside) {
+struct media media_leave(const struct media *media, const struct hit *hit, bool *was_inside) {
     struct media after = {0};
     int last = media->count - 1;
-    while (last >= 0 && media->inside[last].number != number) last--;
+    while (last >= 0 && !occurrence_equal(media->inside[last].which, &hit->which)) last--;
     for (int i = 0; i < media->count; i++)
         if (i != last) after.inside[after.count++] = media->inside[i];
     *was_inside = last >= 0;
     return after;
 }
 
-uint32_t *media_candidates(struct arena *arena, const struct scene *scene, uint32_t *count) {
-    const struct primitives *p = &scene->primitives;
-    uint32_t *numbers = NULL;
-    *count = 0;
-    for (int pass = 0; pass < 2; pass++) {
-        if (pass) numbers = arena_array(arena, *count ? *count : 1, sizeof *numbers);
-        uint32_t found = 0;
-        for (uint32_t i = 0; i < p->count; i++) {
-            if (!(vec3_max_abs(scene->materials[p->info[i].material].refraction) > 0.0)) continue;
-            if (!divides_space(p, p->info[i].ref)) continue;
-            if (pass) numbers[found] = i;
-            found++;
-        }
-        *count = found;
-    }
-    return numbers;
-}
+/* ---- Where a path begins ---- */
+
+/* The bodies around the origin of a ray so far, outermost first. */
+struct nesting {
+    int count;
+    struct body {
+        double end; /* how far along the ray it ends */
+        struct occurrence which;
+        double index;
+    } bodies[MEDIA_MAX];
+    const struct scene *scene;
+};
 
 /* How far along the ray the body ends; negative when its origin is not inside of it. */
 static double exit_distance(const struct primitives *p, primitive_ref ref, ray r) {
@@ -63,23 +52,40 @@ static double exit_distance(const struct primitives *p, primitive_ref ref, ray r
     return shape_first_crossing(p, ref, r, 0.0, INFINITY, &out) ? out.t : INFINITY;
 }
 
-struct media media_at(const struct scene *scene, const uint32_t *candidates, uint32_t count, ray r) {
-    struct media media = {0};
-    double end[MEDIA_MAX]; /* of each in the list, falling */
-    for (uint32_t i = 0; i < count; i++) {
-        const double distance = exit_distance(&scene->primitives, scene->primitives.info[candidates[i]].ref, r);
-        if (distance < 0.0) continue;
-        int at = media.count;
-        while (at > 0 && end[at - 1] < distance) at--;
-        if (media.count == MEDIA_MAX && at == 0) continue;
-        const int first = media.count == MEDIA_MAX ? (at--, 0) : -1; /* full: the outermost gives way */
-        if (first == 0)
-            for (int j = 0; j < at; j++) media.inside[j] = media.inside[j + 1], end[j] = end[j + 1];
-        else
-            for (int j = media.count++; j > at; j--) media.inside[j] = media.inside[j - 1], end[j] = end[j - 1];
-        media.inside[at].number = candidates[i];
-        media.inside[at].index = index_of(scene, candidates[i]);
-        end[at] = distance;
+static bool occurrence_before(const struct occurrence *a, const struct occurrence *b) {
+    for (uint32_t i = 0; i <= a->depth && i <= b->depth; i++)
+        if (a->number[i] != b->number[i]) return a->number[i] < b->number[i];
+    return false;
+}
+
+static bool is_inside_of(const struct body *a, double end, const struct occurrence *which) {
+    return a->end < end || (a->end == end && occurrence_before(which, &a->which));
+}
+
+static void add_body(void *context, const struct hit *hit, ray in_set) {
+    struct nesting *n = context;
+    const double end = exit_distance(hit->set, hit->ref, in_set);
+    if (end < 0.0) return;
+    int at = n->count;
+    while (at > 0 && is_inside_of(&n->bodies[at - 1], end, &hit->which)) at--;
+    if (n->count == MEDIA_MAX) { /* full: the outermost gives way */
+        if (at-- == 0) return;
+        for (int j = 0; j < at; j++) n->bodies[j] = n->bodies[j + 1];
+    } else {
+        for (int j = n->count++; j > at; j--) n->bodies[j] = n->bodies[j - 1];
     }
-    return media;
+    n->bodies[at] = (struct body){end, hit->which, n->scene->materials[hit->material].index};
+}
+
+void media_at(const struct scene *scene, const struct accel *accel, ray r, struct media_origin *out) {
+    struct nesting nesting;
+    nesting.count = 0;
+    nesting.scene = scene;
+    accel_around(accel, r, add_body, &nesting);
+    out->media.count = nesting.count;
+    for (int i = 0; i < nesting.count; i++) {
+        out->occurrences[i] = nesting.bodies[i].which;
+        out->media.inside[i].which = &out->occurrences[i];
+        out->media.inside[i].index = nesting.bodies[i].index;
+    }
 }

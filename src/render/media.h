@@ -3,6 +3,7 @@
 #ifndef MONGE_RENDER_MEDIA_H
 #define MONGE_RENDER_MEDIA_H
 
+#include "accel/accel.h"
 #include "scene/scene.h"
 
 enum { MEDIA_MAX = 16 }; /* a ray inside of more forgets the further ones */
@@ -10,23 +11,26 @@ enum { MEDIA_MAX = 16 }; /* a ray inside of more forgets the further ones */
 struct media {
     int count;
     struct {
-        uint32_t number; /* of the primitive */
-        double index;    /* of refraction */
+        const struct occurrence *which; /* of the body; kept by whoever entered it */
+        double index;              /* of refraction */
     } inside[MEDIA_MAX];
+};
+
+/* The media where a path begins, with the bodies: not to be copied or moved. */
+struct media_origin {
+    struct media media;
+    struct occurrence occurrences[MEDIA_MAX];
 };
 
 /* The index of refraction around: that of the body entered last, 1 outside of all. */
 double media_index(const struct media *media);
 
-/* The media after a ray has passed the surface of primitive `number` inwards or outwards. Only
- * bodies that divide space are kept: solids and planes. */
-struct media media_enter(const struct scene *scene, const struct media *media, uint32_t number);
-struct media media_leave(const struct media *media, uint32_t number, bool *was_inside);
-
-/* The refracting bodies of the scene that could hold a camera: numbers, in an array of `arena`. */
-uint32_t *media_candidates(struct arena *arena, const struct scene *scene, uint32_t *count);
+/* The media after a ray has passed the surface that it hit inwards or outwards. Only bodies that
+ * divide space are kept: solids and planes. After media_enter, `hit` must outlive the media. */
+struct media media_enter(const struct scene *scene, const struct media *media, const struct hit *hit);
+struct media media_leave(const struct media *media, const struct hit *hit, bool *was_inside);
 
 /* The media at the origin of a ray. Nested bodies are told apart by which the ray leaves last. */
-struct media media_at(const struct scene *scene, const uint32_t *candidates, uint32_t count, ray r);
+void media_at(const struct scene *scene, const struct accel *accel, ray r, struct media_origin *out);
 
 #endif

@@ -21,9 +21,7 @@ struct rendering {
     atomic_uint_fast64_t pixels_done;
     atomic_flag reporting; /* a thread is in job->progress */
     const vec3 *samples;   /* settings.samples places within a pixel, x and y in 0..1 */
-    const uint32_t *candidates;
-    uint32_t candidate_count;
-    struct media media; /* at the eye, for a perspective camera */
+    struct media_origin media; /* at the eye, for a perspective camera */
     atomic_uint_fast64_t rays[MONGE_RAY_KINDS];
 };
 
@@ -82,13 +80,9 @@ static void render_pixel(const struct rendering *rd, uint32_t x, uint32_t y, uin
         const double px = ((double)(region->x + x) + rd->samples[i].x) / s->width;
         const double py = ((double)(region->y + y) + rd->samples[i].y) / s->height;
         const ray r = camera_ray(&rd->view, px, py);
-        struct media here;
-        const struct media *media = &rd->media;
-        if (rd->view.orthographic && rd->candidate_count) {
-            here = media_at(rd->tracer.scene, rd->candidates, rd->candidate_count, r);
-            media = &here;
-        }
-        sum = vec3_add(sum, trace_ray(&rd->tracer, r, media, rays));
+        struct media_origin here;
+        if (rd->view.orthographic) media_at(rd->tracer.scene, rd->tracer.accel, r, &here);
+        sum = vec3_add(sum, trace_ray(&rd->tracer, r, rd->view.orthographic ? &here.media : &rd->media.media, rays));
     }
     float *pixel = film_pixel(rd->film, x, y);
     pixel[0] = (float)(sum.x / s->samples);
@@ -141,10 +135,9 @@ bool render_film(const struct scene *scene, const struct accel *accel, const str
     }
     struct rendering rd = {.tracer = {.scene = scene, .accel = accel, .settings = film->settings},
                            .job = job, .film = film, .reporting = ATOMIC_FLAG_INIT};
-    rd.view = camera_view(scene, accel_bounds(accel), film->settings.width, film->settings.height);
+    rd.view = camera_view(scene, accel, film->settings.width, film->settings.height);
     rd.samples = sample_places(&arena, film->settings.samples);
-    rd.candidates = media_candidates(&arena, scene, &rd.candidate_count);
-    rd.media = media_at(scene, rd.candidates, rd.candidate_count, (ray){rd.view.eye, rd.view.forward});
+    media_at(scene, accel, (ray){rd.view.eye, rd.view.forward}, &rd.media);
     set_lights(&arena, &rd, scene);
     rd.tiles_across = (film->region.width + TILE_SIZE - 1) / TILE_SIZE;
     rd.tile_count = rd.tiles_across * ((film->region.height + TILE_SIZE - 1) / TILE_SIZE);

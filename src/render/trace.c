@@ -32,9 +32,10 @@ static vec3 transmittance(const struct path *path, vec3 from, vec3 to) {
     path->rays[MONGE_RAY_SHADOW]++;
     if (accel_any(tracer->accel, r, 0.0, 1.0)) return vec3_all(0.0);
     vec3 through = vec3_all(1.0);
-    struct hit hit = {.crossing = {.t = 0.0}};
+    struct hit hit;
+    hit.crossing.t = 0.0;
     while (accel_nearest_clear(tracer->accel, r, hit.crossing.t, before_one, &hit)) {
-        through = vec3_mul(through, scene->materials[scene->primitives.info[hit.number].material].refraction);
+        through = vec3_mul(through, scene->materials[hit.material].refraction);
         if (vec3_max_abs(through) < least_weight) return vec3_all(0.0);
     }
     return through;
@@ -105,14 +106,14 @@ static bool refract(vec3 dir, vec3 toward, double n1, double n2, vec3 *out) {
 }
 
 /* Reflected and refracted light. Total internal reflection mirrors what would have been refracted. */
-static vec3 shade_secondary(const struct path *path, const struct meeting *m, uint32_t number) {
+static vec3 shade_secondary(const struct path *path, const struct meeting *m, const struct hit *hit) {
     const struct material *material = m->material;
     const vec3 toward = m->outside ? m->surface.normal : vec3_neg(m->surface.normal);
     vec3 mirrored = material->reflection, color = vec3_all(0.0);
     if (vec3_max_abs(material->refraction) > 0.0) {
         bool was_inside = true;
-        const struct media beyond = m->outside ? media_enter(path->tracer->scene, path->media, number)
-                                               : media_leave(path->media, number, &was_inside);
+        const struct media beyond = m->outside ? media_enter(path->tracer->scene, path->media, hit)
+                                               : media_leave(path->media, hit, &was_inside);
         const double n1 = m->outside || was_inside ? media_index(path->media) : material->index;
         const double n2 = m->outside ? material->index : media_index(&beyond);
         vec3 dir;
@@ -134,15 +135,14 @@ static vec3 follow(struct path *path, ray r) {
     const struct scene *scene = tracer->scene;
     struct hit hit;
     if (!accel_nearest(tracer->accel, r, 0.0, INFINITY, &hit)) return background_color(&scene->background, vec3_normalize(r.dir));
-    const struct primitive_info *info = &scene->primitives.info[hit.number];
-    struct meeting m = {.surface = shape_surface(&scene->primitives, info->ref, r, hit.crossing),
-                        .material = &scene->materials[info->material],
+    struct meeting m = {.surface = accel_surface(tracer->accel, r, &hit),
+                        .material = &scene->materials[hit.material],
                         .dir = vec3_normalize(r.dir)};
     if (tracer->settings.shading == MONGE_SHADING_SIGNATURE) return m.material->diffuse;
     m.outside = vec3_dot(m.dir, m.surface.normal) < 0.0;
     const vec3 local = shade_local(path, &m);
     if (tracer->settings.shading != MONGE_SHADING_PHONG || path->depth >= tracer->settings.depth) return local;
-    return vec3_add(local, shade_secondary(path, &m, hit.number));
+    return vec3_add(local, shade_secondary(path, &m, &hit));
 }
 
 vec3 trace_ray(const struct tracer *tracer, ray r, const struct media *media, uint64_t rays[MONGE_RAY_KINDS]) {

@@ -48,21 +48,30 @@ static void hash_primitive(struct hash *hash, const struct primitives *p, const 
         hash_affine(hash, &p->flats[index].world_from_object);
         hash_integer(hash, p->flats[index].outline);
         return;
+    case PRIMITIVE_INSTANCE:
+        hash_affine(hash, &p->instances[index].world_from_object);
+        hash_integer(hash, p->instances[index].geometry);
+        return;
     case PRIMITIVE_QUADRIC: break;
     }
     hash_affine(hash, &p->quadrics[index].world_from_object);
     hash_form(hash, p->quadrics[index].form);
 }
 
+static uint32_t material_of(const struct primitives *p, uint32_t number) {
+    const primitive_ref ref = p->info[number].ref;
+    return primitive_ref_kind(ref) == PRIMITIVE_INSTANCE ? p->instances[primitive_ref_index(ref)].material : p->info[number].material;
+}
+
 /* Materials by their values, at each primitive that has them: not by name or number, nor unused ones. */
-static void hash_primitives(struct hash *hash, const struct scene *scene) {
-    const struct primitives *p = &scene->primitives;
+static void hash_primitives(struct hash *hash, const struct scene *scene, const struct primitives *p) {
     struct hash material = {0, 0};
     hash_integer(hash, p->count);
     for (uint32_t i = 0; i < p->count; i++) {
-        if (i == 0 || p->info[i].material != p->info[i - 1].material) {
+        const uint32_t index = material_of(p, i);
+        if (i == 0 || index != material_of(p, i - 1)) {
             hash_begin(&material);
-            hash_material(&material, &scene->materials[p->info[i].material]);
+            if (index != MATERIAL_INHERITED) hash_material(&material, &scene->materials[index]);
         }
         hash_integer(hash, material.high);
         hash_integer(hash, material.low);
@@ -83,5 +92,6 @@ void scene_hash(const struct scene *scene, struct hash *hash) {
         hash_vec3(hash, scene->lights[i].at);
         hash_vec3(hash, scene->lights[i].color);
     }
-    hash_primitives(hash, scene);
+    hash_primitives(hash, scene, &scene->primitives);
+    for (uint32_t i = 0; i < scene->geometry_count; i++) hash_primitives(hash, scene, &scene->geometries[i]);
 }

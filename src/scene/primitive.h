@@ -50,12 +50,16 @@ struct quadric {
     const struct quadric_form *form; /* shared by primitives of the same form */
 };
 
-/* A geometry, placed: one of the scene's sets of primitives that stand in a space of their own. */
+/* A geometry, placed: one of the scene's sets of primitives that stand in a space of their own. "World"
+ * is here the space of the set that the instance is in: the scene's, or that of another geometry. */
 struct instance {
     affine object_from_world, world_from_object; /* object space: that of the geometry */
     uint32_t geometry;                           /* index into the scene's geometries */
-    uint32_t material;                           /* of its primitives that have MATERIAL_INHERITED */
+    uint32_t material; /* of its primitives that have MATERIAL_INHERITED; may be that too, within a geometry */
 };
+
+/* Instances around a primitive, at most: whoever makes geometries flattens or refuses what is deeper. */
+enum { INSTANCE_MAX_DEPTH = 32 };
 
 enum primitive_kind { PRIMITIVE_SPHERE, PRIMITIVE_FLAT, PRIMITIVE_QUADRIC, PRIMITIVE_INSTANCE };
 
@@ -72,7 +76,8 @@ static inline uint32_t primitive_ref_index(primitive_ref ref) { return ref & (PR
 /* What the renderer asks of a primitive besides its shape. */
 struct primitive_info {
     primitive_ref ref;
-    uint32_t material; /* index into the scene's materials; of a geometry's also MATERIAL_INHERITED */
+    uint32_t material; /* index into the scene's materials; of a geometry's also MATERIAL_INHERITED;
+                          of an instance not used: it has its own */
 };
 
 /* The material of the innermost instance around that has one. */

@@ -142,13 +142,32 @@ static bool looks_black(const struct scene *scene, const struct material *m) {
     return !lit && is_black(m->reflection) && is_black(m->refraction);
 }
 
+/* Whether everything is black that `p` makes with its own materials. *inherits becomes true where
+ * something in it takes that of the instance around; inherits_in tells that of the geometries. */
+static bool all_black(const struct scene *scene, const struct primitives *p, const bool *inherits_in, bool *inherits) {
+    for (uint32_t i = 0; i < p->count; i++) {
+        const primitive_ref ref = p->info[i].ref;
+        uint32_t material = p->info[i].material;
+        if (primitive_ref_kind(ref) == PRIMITIVE_INSTANCE) {
+            const struct instance *instance = &p->instances[primitive_ref_index(ref)];
+            if (!inherits_in[instance->geometry]) continue;
+            material = instance->material;
+        }
+        if (material == MATERIAL_INHERITED) *inherits = true;
+        else if (!looks_black(scene, &scene->materials[material])) return false;
+    }
+    return true;
+}
+
 void lights_check(struct builder *b, const struct object_value *file) {
     const struct scene *scene = b->scene;
     if (scene->default_lights || scene->settings.shading == MONGE_SHADING_SIGNATURE) return;
     bool ambient_alone = scene->light_count > 0;
     for (uint32_t i = 0; i < scene->light_count; i++) ambient_alone &= scene->lights[i].kind == LIGHT_AMBIENT;
-    for (uint32_t i = 0; i < scene->primitives.count; i++)
-        if (!looks_black(scene, &scene->materials[scene->primitives.info[i].material])) return;
+    bool *inherits = arena_array(b->arena, scene->geometry_count, sizeof *inherits), top = false;
+    for (uint32_t i = 0; i < scene->geometry_count; i++)
+        if (!all_black(scene, &scene->geometries[i], inherits, &inherits[i])) return;
+    if (!all_black(scene, &scene->primitives, inherits, &top)) return;
     struct diagnostic *d = diag_warning(b->diag, object_span(file, KEY_FILE_LIGHTS), "no-light", scene->light_count == 0 ? "no light: everything will be black" : "no light that any material gives back: everything will be black");
     if (ambient_alone) diag_help(b->diag, d, "give the materials an `ambient` colour, or add a point light");
     else diag_help(b->diag, d, "add one, or remove `lights` for the default ones");

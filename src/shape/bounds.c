@@ -86,9 +86,18 @@ box3 shape_bounds(const struct primitives *p, primitive_ref ref) {
     switch (primitive_ref_kind(ref)) {
     case PRIMITIVE_SPHERE: return sphere_bounds(&p->spheres[index]);
     case PRIMITIVE_FLAT: return flat_bounds(&p->flats[index]);
+    case PRIMITIVE_INSTANCE: return BOX3_ALL;
     case PRIMITIVE_QUADRIC: break;
     }
     return quadric_bounds(&p->quadrics[index]);
+}
+
+box3 shape_placed_bounds(const struct instance *instance, box3 box) {
+    const affine *m = &instance->world_from_object;
+    if (box3_is_empty(box)) return BOX3_EMPTY;
+    const vec3 center = affine_point(m, box3_center(box));
+    const vec3 half = map_size(m, vec3_scale(vec3_sub(box.max, box.min), 0.5));
+    return bounds_pad((box3){vec3_sub(center, half), vec3_add(center, half)}, m, &instance->object_from_world);
 }
 
 /* ---- Along any direction ---- */
@@ -126,6 +135,7 @@ double shape_support(const struct primitives *p, primitive_ref ref, vec3 directi
         sphere = &p->spheres[index];
         return vec3_dot(sphere->center, direction) + sphere->radius * vec3_length(direction);
     case PRIMITIVE_FLAT: return flat_support(&p->flats[index], direction);
+    case PRIMITIVE_INSTANCE: return INFINITY;
     case PRIMITIVE_QUADRIC: break;
     }
     return quadric_support(&p->quadrics[index], direction);

@@ -1,6 +1,8 @@
 /* What a ray meets: crossings, surfaces, normals and bounds of the primitives. Pure functions; no
  * state, no allocation. Rays are in world space, and t is in multiples of the ray's direction, which
- * need not be unit, but long and short enough (1e-100 .. 1e100) for its square to be a number. */
+ * need not be unit, but long and short enough (1e-100 .. 1e100) for its square to be a number.
+ * An instance is not a shape: it is never crossed, not solid, and its bounds are infinite. What it places
+ * is asked for in the space of the geometry and brought to the world by the two functions at the end. */
 #ifndef MONGE_SHAPE_SHAPE_H
 #define MONGE_SHAPE_SHAPE_H
 
@@ -58,5 +60,13 @@ double shape_support(const struct primitives *p, primitive_ref ref, vec3 directi
 
 /* A world-space box that holds the primitive, rounded outwards; infinite where the primitive is. */
 box3 shape_bounds(const struct primitives *p, primitive_ref ref);
+
+/* A surface of the instance's geometry, in world space. `extent`: bounds of the geometry, in its space, or
+ * empty; the error holds for rays in the world that run so far. */
+struct surface shape_placed_surface(const struct instance *instance, const struct surface *surface, box3 extent);
+
+/* A world-space box that holds what the instance places of a bounded or empty box of its geometry,
+ * rounded outwards. */
+box3 shape_placed_bounds(const struct instance *instance, box3 box);
 
 #endif

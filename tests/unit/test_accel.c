@@ -50,7 +50,7 @@ struct scene {
     struct arena arena;
     struct primitives p;
     struct accel *accel;
-    const bool *clear; /* by number; NULL: none */
+    const bool *clear; /* by material; NULL: none */
 };
 
 static void scene_begin(struct scene *s, uint32_t room) {
@@ -155,8 +155,12 @@ static ray random_ray(double size, bool grid) {
 enum among { ALL, OPAQUE, CLEAR };
 
 static bool is_among(const struct scene *s, uint32_t number, enum among among) {
-    const bool clear = s->clear && s->clear[number];
+    const bool clear = s->clear && s->clear[s->p.info[number].material];
     return among == ALL || clear == (among == CLEAR);
+}
+
+static struct hit hit_of(uint32_t number, struct crossing crossing) {
+    return (struct hit){.crossing = crossing, .which = {.number = {number}}};
 }
 
 static bool oracle_nearest(const struct scene *s, enum among among, ray r, double t_min, double t_max, struct hit *hit) {
@@ -167,7 +171,7 @@ static bool oracle_nearest(const struct scene *s, enum among among, ray r, doubl
         if (!is_among(s, i, among)) continue;
         if (!shape_first_crossing(p, p->info[i].ref, r, t_min, t_max, &c)) continue;
         if (found && !(c.t < hit->crossing.t)) continue; /* numbers rise: an equal one loses */
-        *hit = (struct hit){i, c};
+        *hit = hit_of(i, c);
         found = true;
     }
     return found;
@@ -180,16 +184,16 @@ static bool oracle_any(const struct scene *s, ray r, double t_min, double t_max)
 
 /* Asks for the nearest among all or the clear ones; returns whether the ray hit. */
 static bool check_nearest(const struct scene *s, enum among among, ray r, double t_min, double t_max) {
-    const struct hit untouched = {77, {-5.0, SHAPE_CUT_MAX_Z}};
+    const struct hit untouched = hit_of(77, (struct crossing){-5.0, SHAPE_CUT_MAX_Z});
     struct hit want = untouched, found = untouched;
     const bool hit = oracle_nearest(s, among, r, t_min, t_max, &want);
     const bool answer = among == CLEAR ? accel_nearest_clear(s->accel, r, t_min, t_max, &found)
                                        : accel_nearest(s->accel, r, t_min, t_max, &found);
-    if (answer != hit || found.number != want.number ||
+    if (answer != hit || found.which.number[0] != want.which.number[0] ||
         found.crossing.t != want.crossing.t || found.crossing.part != want.crossing.part)
         fail_msg("ray %a %a %a, %a %a %a in %a .. %a: found %u at %a, not %u at %a", r.org.x, r.org.y,
-                 r.org.z, r.dir.x, r.dir.y, r.dir.z, t_min, t_max, found.number, found.crossing.t,
-                 want.number, want.crossing.t);
+                 r.org.z, r.dir.x, r.dir.y, r.dir.z, t_min, t_max, found.which.number[0], found.crossing.t,
+                 want.which.number[0], want.crossing.t);
     return hit;
 }
 
@@ -283,7 +287,7 @@ static unsigned check_tree(const struct scene *s, uint32_t bounded) {
 
 static void scene_end(struct scene *s) { arena_free(&s->arena); }
 
-static void scene_build(struct scene *s) { s->accel = accel_build(&s->arena, &s->p, s->clear); }
+static void scene_build(struct scene *s) { s->accel = accel_build(&s->arena, &s->p, NULL, 0, s->clear); }
 
 /* ---- Tests ---- */
 
@@ -318,8 +322,8 @@ static void clear_and_opaque(void **state) {
         scene_begin(&s, 1000);
         for (int i = 0; i < 200; i++) add_random(&s.p, 4.0, seed % 2);
         shuffle(&s.p);
-        bool *clear = arena_array(&s.arena, s.p.count, sizeof *clear);
-        for (uint32_t i = 0; i < s.p.count; i++) clear[i] = random_below(3) == 0;
+        static const bool clear[] = {false, true, false};
+        for (uint32_t i = 0; i < s.p.count; i++) s.p.info[i].material = random_below(3);
         s.clear = clear;
         scene_build(&s);
         check_random_rays(&s, 4.0, seed % 2, 300, 60);
@@ -359,7 +363,7 @@ static void one_sphere(void **state) {
     scene_build(&s);
     struct hit hit;
     assert_true(accel_nearest(s.accel, (ray){{0, 0, 0}, {0, 0, 2}}, 0.0, INFINITY, &hit));
-    assert_int_equal(hit.number, 0);
+    assert_int_equal(hit.which.number[0], 0);
     assert_true(fabs(hit.crossing.t - 2.0) < 1e-15);
     const box3 bounds = accel_bounds(s.accel), want = shape_bounds(&s.p, s.p.info[0].ref);
     assert_memory_equal(&bounds, &want, sizeof want);
@@ -539,7 +543,7 @@ static void arena_that_is_full(void **state) {
     struct arena small = {.limit = 5000, .on_full = &full};
     volatile bool came_back = false;
     if (setjmp(full) == 0)
-        accel_build(&small, &s.p, NULL);
+        accel_build(&small, &s.p, NULL, 0, NULL);
     else
         came_back = true;
     assert_true(came_back);

@@ -132,10 +132,19 @@ static void assert_vec3(vec3 got, vec3 want, double tolerance) {
         fail_msg("(%g, %g, %g), want (%g, %g, %g)", got.x, got.y, got.z, want.x, want.y, want.z);
 }
 
+/* The view of a scene without objects. */
+static struct view view_of(const struct scene *scene, uint32_t width, uint32_t height) {
+    struct arena arena = {0};
+    const struct accel *accel = accel_build(&arena, &scene->primitives, NULL, 0, NULL);
+    const struct view view = camera_view(scene, accel, width, height);
+    arena_free(&arena);
+    return view;
+}
+
 static void test_perspective(void **state) {
     (void)state;
     const struct scene scene = {.camera = {.has_eye = true, .has_look_at = true, .eye = {0, 0, 1}, .look_at = {0, 0, -1}, .up = {0, 1, 0}, .fov_deg = 60}};
-    const struct view view = camera_view(&scene, BOX3_EMPTY, 320, 240);
+    const struct view view = view_of(&scene, 320, 240);
     const double tan30 = 0.57735026918962576;
     assert_vec3(camera_ray(&view, 0.5, 0.5).dir, (vec3){0, 0, -1}, 1e-15);
     assert_vec3(camera_ray(&view, 0.5, 0).dir, (vec3){0, tan30, -1}, 1e-15);          /* top */
@@ -147,7 +156,7 @@ static void test_orthographic(void **state) {
     (void)state;
     const struct scene scene = {.camera = {.projection = CAMERA_ORTHOGRAPHIC, .has_eye = true, .has_direction = true, .has_height = true,
                                            .eye = {0, 10, 0}, .direction = {0, -2, 0}, .up = {0, 0, -1}, .has_up = true, .height = 4}};
-    const struct view view = camera_view(&scene, BOX3_EMPTY, 200, 100);
+    const struct view view = view_of(&scene, 200, 100);
     assert_vec3(camera_ray(&view, 0.5, 0.5).org, (vec3){0, 10, 0}, 1e-15);
     assert_vec3(camera_ray(&view, 1, 0).org, (vec3){4, 10, -2}, 1e-15);
     assert_vec3(camera_ray(&view, 0, 1).dir, (vec3){0, -1, 0}, 1e-15);
@@ -156,7 +165,7 @@ static void test_orthographic(void **state) {
 static void test_straight_down(void **state) {
     (void)state;
     const struct scene scene = {.camera = {.has_eye = true, .has_look_at = true, .eye = {0, 5, 0}, .look_at = {0, 0, 0}, .up = {0, 1, 0}, .fov_deg = 90}};
-    const struct view view = camera_view(&scene, BOX3_EMPTY, 100, 100);
+    const struct view view = view_of(&scene, 100, 100);
     assert_vec3(camera_ray(&view, 0.5, 0).dir, (vec3){0, -1, -1}, 1e-15); /* what is far is up */
 }
 
