@@ -196,12 +196,12 @@ $(BUILD)/tools/grammar: $(BUILD)/obj/tools/grammar.o $(TOOL_OBJECTS)
 	$(call say,link,$@)
 	$(QUIET)$(LINK) -o $@ $^ $(LIBS)
 
-$(BUILD)/gen/grammar_tables.h: $(BUILD)/tools/grammar $(wildcard grammar/*.yaml)
+$(BUILD)/gen/grammar_tables.h: $(BUILD)/tools/grammar $(wildcard grammar/*.yaml) scenes/presets.yaml
 	@mkdir -p $(@D)
 	$(call say,gen,$@)
 	$(QUIET)$< tables-header grammar $@
 
-$(BUILD)/gen/grammar_tables.c: $(BUILD)/tools/grammar $(wildcard grammar/*.yaml)
+$(BUILD)/gen/grammar_tables.c: $(BUILD)/tools/grammar $(wildcard grammar/*.yaml) scenes/presets.yaml
 	@mkdir -p $(@D)
 	$(call say,gen,$@)
 	$(QUIET)$< tables grammar $@

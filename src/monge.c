@@ -20,6 +20,7 @@ struct monge_scene {
     struct arena arena; /* of the scene and its hierarchy */
     struct scene scene;
     struct accel *accel; /* NULL: not prepared */
+    unsigned frames;     /* of its animation; 0: none */
 };
 
 const char *monge_version(void) { return MONGE_VERSION; }
@@ -41,48 +42,87 @@ void monge_diagnostics_print(const struct monge_diagnostics *diag, FILE *out) { 
 /* ---- Loading ---- */
 
 static const struct monge_limits default_limits = {
-    .file_bytes = (size_t)1 << 30, .memory_bytes = (size_t)8 << 30, .values = 100 * 1000 * 1000, .nesting = 100};
+    .file_bytes = (size_t)1 << 30, .memory_bytes = (size_t)8 << 30, .values = 100 * 1000 * 1000, .nesting = 100,
+    .recursion = 100, .steps = 100 * 1000 * 1000, .objects = 20 * 1000 * 1000};
+
+enum { MAX_NESTING = 1000, MAX_RECURSION = 1000 }; /* what the stack of a thread has room for */
+
+static size_t chosen(size_t wanted, size_t otherwise) { return wanted ? wanted : otherwise; }
+static size_t least(size_t a, size_t b) { return a < b ? a : b; }
 
 static struct monge_limits effective_limits(const struct monge_limits *given) {
-    struct monge_limits limits = given ? *given : default_limits;
-    if (!limits.file_bytes) limits.file_bytes = default_limits.file_bytes;
-    if (!limits.memory_bytes) limits.memory_bytes = default_limits.memory_bytes;
-    if (!limits.values) limits.values = default_limits.values;
-    if (!limits.nesting) limits.nesting = default_limits.nesting;
-    return limits;
+    return (struct monge_limits){
+        .file_bytes = chosen(given->file_bytes, default_limits.file_bytes),
+        .memory_bytes = chosen(given->memory_bytes, default_limits.memory_bytes),
+        .values = chosen(given->values, default_limits.values),
+        .nesting = least(chosen(given->nesting, default_limits.nesting), MAX_NESTING),
+        .recursion = least(chosen(given->recursion, default_limits.recursion), MAX_RECURSION),
+        .steps = chosen(given->steps, default_limits.steps),
+        .objects = chosen(given->objects, default_limits.objects),
+    };
 }
 
 /* One load. The description and the text it points into die with it; the scene stays. */
 struct load {
-    struct monge_limits limits;
+    struct monge_load_options options; /* limits: effective */
     struct diagnostics *diag;
     const char *name, *text; /* text NULL: the file `name` */
     size_t size;
-    struct arena description;
+    struct lang_memory memory;
     struct monge_scene *scene;
 };
 
+static const struct source *read_source(struct load *load) {
+    if (load->text) return file_from_memory(&load->memory.nodes, load->name, load->text, load->size);
+    return file_read(&load->memory.nodes, load->diag, load->name, load->options.limits.file_bytes);
+}
+
+/* monge_define and lang_define have the same members. */
+static const struct lang_define *lang_defines(struct load *load) {
+    struct lang_define *defines = arena_array(&load->memory.nodes, load->options.define_count + 1, sizeof *defines);
+    for (size_t i = 0; i < load->options.define_count; i++)
+        defines[i] = (struct lang_define){load->options.defines[i].name, load->options.defines[i].value};
+    return defines;
+}
+
 static bool load_scene(struct load *load) {
     struct monge_scene *scene = load->scene;
-    const struct lang_limits limits = {load->limits.nesting, load->limits.values};
-    struct diagnostics *diag = load->diag;
-    const unsigned errors = diag->errors;
-    const struct source *source = load->text ? file_from_memory(&load->description, load->name, load->text, load->size)
-                                             : file_read(&load->description, diag, load->name, load->limits.file_bytes);
+    const struct monge_limits *limits = &load->options.limits;
+    const unsigned errors = load->diag->errors;
+    const struct source *source = read_source(load);
     if (!source) return false;
-    const struct object_value *file = lang_read(&load->description, diag, source, &limits);
-    return file && scene_build(&scene->arena, diag, file, &scene->scene) && diag->errors == errors;
+    struct lang_sink sink;
+    struct builder *builder = scene_begin(&scene->arena, load->diag, &scene->scene, &sink);
+    const struct lang_input input = {
+        .source = source,
+        .path = load->name,
+        .limits = {limits->file_bytes, (unsigned)limits->nesting, limits->values, (unsigned)limits->recursion, limits->steps, limits->objects},
+        .defines = lang_defines(load),
+        .define_count = load->options.define_count,
+        .frame = load->options.frame,
+        .untrusted = load->options.untrusted,
+        .sink = &sink,
+    };
+    const struct lang_result result = lang_read(&load->memory, load->diag, &input);
+    scene->frames = result.frames;
+    return result.file && scene_end(builder, &result) && load->diag->errors == errors;
 }
 
 /* Loads with arenas that come back here when they are full. */
 static bool load_guarded(struct load *load) {
     jmp_buf full;
-    load->description.on_full = load->scene->arena.on_full = &full;
-    load->description.limit = load->scene->arena.limit = load->limits.memory_bytes;
+    load->memory.nodes.on_full = &full;
+    load->memory.nodes.limit = load->options.limits.memory_bytes;
+    load->scene->arena.parent = &load->memory.nodes;
     if (setjmp(full) == 0) return load_scene(load);
     diag_failure(load->diag, "limit-memory", "%s: takes more memory than there is, or than %zu bytes (the limit `memory_bytes`)",
-                 load->name, load->limits.memory_bytes);
+                 load->name, load->options.limits.memory_bytes);
     return false;
+}
+
+static struct monge_load_options load_options(const struct monge_load_options *given) {
+    const struct monge_load_options none = {.frame = 0};
+    return given ? *given : none;
 }
 
 static struct monge_scene *run_load(struct load *load) {
@@ -91,25 +131,28 @@ static struct monge_scene *run_load(struct load *load) {
         diag_failure(load->diag, "out-of-memory", "%s: out of memory", load->name);
         return NULL;
     }
+    load->options.limits = effective_limits(&load->options.limits);
     const bool ok = load_guarded(load);
-    arena_free(&load->description);
-    load->scene->arena.on_full = NULL;
-    load->scene->arena.limit = 0;
+    load->diag->frame = NULL;
+    load->scene->arena.parent = NULL;
+    lang_memory_free(&load->memory);
     if (ok) return load->scene;
     monge_scene_free(load->scene);
     return NULL;
 }
 
-struct monge_scene *monge_load_file(const char *path, const struct monge_limits *limits, struct monge_diagnostics *diag) {
-    struct load load = {.limits = effective_limits(limits), .diag = &diag->list, .name = path};
+struct monge_scene *monge_load_file(const char *path, const struct monge_load_options *options, struct monge_diagnostics *diag) {
+    struct load load = {.options = load_options(options), .diag = &diag->list, .name = path};
     return run_load(&load);
 }
 
-struct monge_scene *monge_load_memory(const char *name, const char *text, size_t size, const struct monge_limits *limits,
+struct monge_scene *monge_load_memory(const char *name, const char *text, size_t size, const struct monge_load_options *options,
                                       struct monge_diagnostics *diag) {
-    struct load load = {.limits = effective_limits(limits), .diag = &diag->list, .name = name, .text = text, .size = size};
+    struct load load = {.options = load_options(options), .diag = &diag->list, .name = name, .text = text, .size = size};
     return run_load(&load);
 }
+
+unsigned monge_scene_frames(const struct monge_scene *scene) { return scene->frames; }
 
 void monge_scene_free(struct monge_scene *scene) {
     if (scene) arena_free(&scene->arena);

@@ -45,21 +45,41 @@ void monge_diagnostics_print(const struct monge_diagnostics *diag, FILE *out);
 struct monge_limits {
     size_t file_bytes;   /* of one file: 1 GiB */
     size_t memory_bytes; /* of one load: 8 GiB */
-    size_t values;       /* values read, aliases expanded: 100,000,000 */
-    unsigned nesting;    /* lists and mappings within each other: 100 */
+    size_t values;       /* values read from one file, aliases expanded: 100,000,000 */
+    size_t nesting;      /* lists and mappings within each other: 100 */
+    size_t recursion;    /* templates in use within each other: 100; at most 1000 */
+    size_t steps;        /* objects looked at and turns of loops: 100,000,000 */
+    size_t objects;      /* shapes: 20,000,000, those of a template placed many times once */
+};
+
+/* A parameter of the scene and its value, as a scene writes it: "3", "[0, 1, 0]", "gold". */
+struct monge_define {
+    const char *name, *value;
+};
+
+/* How to read a scene. Zeroed: in no special way. */
+struct monge_load_options {
+    struct monge_limits limits;
+    const struct monge_define *defines;
+    size_t define_count;
+    unsigned frame; /* of an animation, from 1; 0: the first */
+    bool untrusted; /* the scene reads files in its own folder alone */
 };
 
 struct monge_scene;
 
-/* Reads a scene; "-" is standard input. limits may be NULL. NULL when the scene is wrong or cannot
+/* Reads a scene; "-" is standard input. options may be NULL. NULL when the scene is wrong or cannot
  * be read: diag says why, monge_diagnostics_failures which of the two. The caller frees the scene. */
-struct monge_scene *monge_load_file(const char *path, const struct monge_limits *limits,
+struct monge_scene *monge_load_file(const char *path, const struct monge_load_options *options,
                                     struct monge_diagnostics *diag);
 
 /* The same from memory: `size` bytes of UTF-8 YAML, free to go when this returns; `name` stands for
- * the file in messages. */
+ * the file in messages, and what the scene includes is found from it. */
 struct monge_scene *monge_load_memory(const char *name, const char *text, size_t size,
-                                      const struct monge_limits *limits, struct monge_diagnostics *diag);
+                                      const struct monge_load_options *options, struct monge_diagnostics *diag);
+
+/* The frames of the scene's animation; 0: it has none. */
+unsigned monge_scene_frames(const struct monge_scene *scene);
 
 void monge_scene_free(struct monge_scene *scene);
 

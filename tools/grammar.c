@@ -284,8 +284,22 @@ static void write_expressions(FILE *out, const struct node *expressions) {
     fprintf(out, "};\nconst int grammar_constant_count = %u;\n", (unsigned)get(expressions, "constants")->count);
 }
 
-static void write_tables(FILE *out, const struct node *root, const struct node *expressions, const struct node *colors) {
-    fputs("/* Generated from grammar/language.yaml, grammar/functions.yaml and grammar/colors.yaml. */\n#include \"grammar_tables.h\"\n\n"
+/* A text file of the project as a string. */
+static void write_file(FILE *out, const char *name, const struct source *source) {
+    fprintf(out, "const char %s[] =", name);
+    for (size_t i = 0; i < source->size;) {
+        const char *line = source->text + i, *end = memchr(line, '\n', source->size - i);
+        const size_t length = end ? (size_t)(end - line) : source->size - i;
+        fputs("\n    ", out);
+        write_string(out, arena_text(&arena, line, length));
+        fputs(" \"\\n\"", out);
+        i += length + 1;
+    }
+    fputs(";\n", out);
+}
+
+static void write_tables(FILE *out, const struct node *root, const struct node *expressions, const struct node *colors, const struct source *presets) {
+    fputs("/* Generated from the files of grammar/ and from scenes/presets.yaml. */\n#include \"grammar_tables.h\"\n\n"
           "#include <stddef.h>\n\n#include \"lang/grammar.h\"\n\n", out);
     for_kinds(root, out, write_keys);
     fputs("const struct grammar_kind grammar_kinds[] = {\n", out);
@@ -293,6 +307,7 @@ static void write_tables(FILE *out, const struct node *root, const struct node *
     fputs("};\nconst int grammar_kind_count = KINDS;\n", out);
     write_expressions(out, expressions);
     write_colors(out, colors);
+    write_file(out, "grammar_presets", presets);
 }
 
 /* ---- The manual ---- */
@@ -410,7 +425,7 @@ int main(int argc, char **argv) {
         return 2;
     }
     if (strcmp(argv[1], "tables-header") == 0) write_header(out, root, expressions);
-    else if (strcmp(argv[1], "tables") == 0) write_tables(out, root, expressions, colors);
+    else if (strcmp(argv[1], "tables") == 0) write_tables(out, root, expressions, colors, read_source(argv[2], "../scenes/presets.yaml"));
     else write_reference(out, root, expressions);
     const bool written = fclose(out) == 0;
     if (!written) remove(argv[3]);

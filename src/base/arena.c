@@ -61,6 +61,30 @@ void *arena_array(struct arena *arena, size_t count, size_t size) {
     return arena_alloc(arena, count * size);
 }
 
+/* The link to the block that holds `array` alone; NULL: it shares its block. */
+static struct arena_block **own_block(struct arena *arena, const void *array, size_t size) {
+    if (!array || size <= ARENA_BLOCK_SIZE) return NULL;
+    struct arena_block **link = &arena->head;
+    while (*link && (*link)->data != array) link = &(*link)->next;
+    return *link && (*link)->used == (*link)->size ? link : NULL;
+}
+
+void *arena_resize(struct arena *arena, void *array, size_t from, size_t to) {
+    const size_t unit = alignof(max_align_t), rounded = (to + unit - 1) / unit * unit;
+    struct arena_block **link = own_block(arena, array, from);
+    if (!link) {
+        void *larger = arena_alloc(arena, to);
+        return from ? memcpy(larger, array, from) : larger;
+    }
+    const size_t more = rounded - (*link)->size;
+    struct arena_block *block = has_room(arena, more) ? realloc(*link, sizeof *block + rounded) : NULL;
+    if (!block) arena_full(arena);
+    *link = block;
+    block->used = block->size = rounded;
+    for (struct arena *a = arena; a; a = a->parent) a->total += more;
+    return block->data;
+}
+
 char *arena_text(struct arena *arena, const char *text, size_t length) {
     char *copy = arena_alloc(arena, length + 1);
     if (length) memcpy(copy, text, length);

@@ -177,6 +177,9 @@ static void declare(struct checker *ck, struct definitions *all, const struct gr
 static void rehearse_template(struct checker *ck, const struct object_value *template) {
     const struct value *parameters = template->fields[KEY_TEMPLATE_PARAMS], *objects = template->fields[KEY_TEMPLATE_OBJECTS];
     const struct node *declared = parameters ? node_resolve(parameters->node) : NULL;
+    struct arena *kept = ck->arena;
+    ck->arena = &ck->memory->scratch;
+    const struct arena_mark before = arena_mark(ck->arena);
     struct binding *bindings = arena_array(ck->arena, declared && declared->count ? declared->count : 1, sizeof *bindings);
     struct scope scope = {NULL, bindings, 0};
     ck->rehearsing = true;
@@ -190,6 +193,8 @@ static void rehearse_template(struct checker *ck, const struct object_value *tem
     ck->scope = &scope;
     if (objects) place_list(ck, objects->node);
     ck->rehearsing = false;
+    arena_release(ck->arena, before);
+    ck->arena = kept;
 }
 
 static struct object_value *failed_object(struct checker *ck, const struct definition *def) {

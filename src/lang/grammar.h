@@ -90,6 +90,9 @@ struct grammar_constant {
 extern const struct grammar_constant grammar_constants[];
 extern const int grammar_constant_count;
 
+/* scenes/presets.yaml, whose materials are the presets. */
+extern const char grammar_presets[];
+
 extern const struct grammar_kind grammar_kinds[];
 extern const int grammar_kind_count;
 

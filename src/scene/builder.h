@@ -2,19 +2,43 @@
 #ifndef MONGE_SCENE_BUILDER_H
 #define MONGE_SCENE_BUILDER_H
 
+#include "base/table.h"
 #include "scene/scene.h"
 
-struct builder {
-    struct arena *arena;
-    struct diagnostics *diag;
-    struct scene *scene;
-    uint32_t material_room, info_room, sphere_room, flat_room, quadric_room; /* of the arrays */
-    uint32_t default_material; /* its index once it is needed; else NO_MATERIAL */
+/* A group or template that is open: where its members stand, and their material if they have none. */
+struct level {
+    affine world_from_node; /* world: of the set that is filled */
+    const struct object_value *material;
+    const struct object_value *use; /* that placed the level; NULL: a group */
+    struct placed *placed;          /* of a use whose objects are gathered; else NULL */
+    struct level *outer;
 };
 
-enum { NO_MATERIAL = UINT32_MAX };
+/* A set of primitives that is being filled: the scene's, or a geometry's. */
+struct set {
+    struct primitives primitives;
+    uint32_t info_room, sphere_room, flat_room, quadric_room, instance_room; /* of the arrays */
+    struct set *outer;
+};
 
-/* Room for one more in an array of `count`: doubles it in the arena when full. */
+struct builder {
+    struct arena *arena; /* of the scene */
+    struct diagnostics *diag;
+    struct scene *scene;
+    struct set *set;
+    struct level *level, *free_levels;
+    struct table placed, inline_materials; /* by their contents */
+    uint32_t *named_materials, named_room; /* index into the scene's materials by definition */
+    uint32_t material_room, geometry_room;
+    uint32_t default_material; /* its index once it is needed; else NO_MATERIAL */
+    uint32_t *geometry_height, *geometry_weight, height_room, weight_room; /* of each geometry, see instances.c */
+    struct set marked; /* at the mark: its counts */
+    uint32_t marked_geometries;
+};
+
+#define NO_MATERIAL (UINT32_MAX - 1)
+
+/* Room for one more in an array of `count` in the scene's arena, twice as much when it is full. */
 void *builder_grow(struct builder *b, void *array, uint32_t count, uint32_t *room, size_t size);
 
 /* The transform that a list of steps makes, the first step applied first. Singular ones are reported:
@@ -29,9 +53,6 @@ void lights_build(struct builder *b, const struct object_value *file);
 /* Warns where no light reaches any object; after all of them are built. */
 void lights_check(struct builder *b, const struct object_value *file);
 
-/* All named materials of the file, in its order: the index of each is its `definition`. */
-void materials_build(struct builder *b, const struct object_value *file);
-
 /* The index of the material that an object is given, or that it has by default (NULL). */
 uint32_t material_index(struct builder *b, const struct object_value *material);
 
@@ -39,5 +60,23 @@ uint32_t material_index(struct builder *b, const struct object_value *material);
  * world_from_node the transform of the node that has it. `bounds`: the node's, or NULL. */
 void shape_build(struct builder *b, const struct object_value *shape, const struct object_value *bounds,
                  affine world_from_node, uint32_t material);
+
+/* Adds an instance of a geometry of the scene. */
+void instance_add(struct builder *b, struct span span, affine world_from_object, uint32_t geometry, uint32_t material);
+
+/* ---- instances.c: what becomes of a template in use ---- */
+
+enum lang_use instances_open(struct builder *b, const struct object_value *object, const struct hash *contents);
+bool instances_close(struct builder *b);
+
+/* Forgets what was gathered since there were `geometries` of them. */
+void instances_take_back(struct builder *b, uint32_t geometries);
+
+/* Opens a level for the members of a group or of a use. */
+void level_open(struct builder *b, const struct object_value *object, struct placed *placed);
+
+/* Opens this level, of which `outer` is set here. */
+void level_push(struct builder *b, struct level level);
+void level_close(struct builder *b);
 
 #endif

@@ -29,7 +29,7 @@ static void hash_camera(struct hash *hash, const struct camera *camera) {
     hash_double(hash, camera->height);
 }
 
-static void hash_material(struct hash *hash, const struct material *m) {
+void material_hash(const struct material *m, struct hash *hash) {
     const vec3 colors[] = {m->ambient, m->diffuse, m->specular, m->reflection, m->refraction};
     for (size_t i = 0; i < sizeof colors / sizeof *colors; i++) hash_vec3(hash, colors[i]);
     hash_double(hash, m->shininess);
@@ -71,7 +71,7 @@ static void hash_primitives(struct hash *hash, const struct scene *scene, const 
         const uint32_t index = material_of(p, i);
         if (i == 0 || index != material_of(p, i - 1)) {
             hash_begin(&material);
-            if (index != MATERIAL_INHERITED) hash_material(&material, &scene->materials[index]);
+            if (index != MATERIAL_INHERITED) material_hash(&scene->materials[index], &material);
         }
         hash_integer(hash, material.high);
         hash_integer(hash, material.low);

@@ -5,7 +5,7 @@
 
 #include "base/diag.h"
 #include "base/hash.h"
-#include "lang/description.h"
+#include "lang/lang.h"
 #include "monge.h"
 #include "scene/primitive.h"
 
@@ -55,11 +55,14 @@ struct scene {
     uint32_t geometry_count;
 };
 
-/* Builds the scene that `file` describes. Shapes are in file order; groups and transforms are
- * flattened. False when something is wrong with it: reported to `diag`, nothing usable in *scene.
- * All of *scene lives in `arena`. */
-bool scene_build(struct arena *arena, struct diagnostics *diag, const struct object_value *file,
-                 struct scene *scene);
+/* Building a scene: *sink takes its objects while they are read (lang_read), scene_end the rest. Shapes
+ * are in the order of the file; groups and transforms are flattened. scene_end: false when something is
+ * wrong: reported to `diag`, nothing usable in *scene. All of *scene lives in `arena`. */
+struct builder *scene_begin(struct arena *arena, struct diagnostics *diag, struct scene *scene, struct lang_sink *sink);
+bool scene_end(struct builder *builder, const struct lang_result *description);
+
+/* Adds what a material is to the hash. */
+void material_hash(const struct material *material, struct hash *hash);
 
 /* Adds everything of the scene that can change a pixel, except the settings, to the hash. */
 void scene_hash(const struct scene *scene, struct hash *hash);

@@ -204,9 +204,30 @@ static uint32_t add_material(struct builder *b, struct material material) {
     return scene->material_count++;
 }
 
-void materials_build(struct builder *b, const struct object_value *file) {
-    const struct object_list named = object_list(file, KEY_FILE_MATERIALS);
-    for (uint32_t i = 0; i < named.count; i++) add_material(b, material_of(b, named.items[i]));
+/* Materials written in place are often the same: of those one is enough. */
+static uint32_t inline_material(struct builder *b, struct material material) {
+    struct hash hash;
+    char name[HASH_TEXT_SIZE];
+    hash_begin(&hash);
+    material_hash(&material, &hash);
+    hash_text(&hash, name);
+    const uint32_t *known = table_find(&b->inline_materials, name);
+    if (known) return *known;
+    uint32_t *index = arena_alloc(b->arena, sizeof *index);
+    *index = add_material(b, material);
+    table_put(b->arena, &b->inline_materials, arena_text(b->arena, name, HASH_TEXT_SIZE - 1), index);
+    return *index;
+}
+
+static uint32_t named_material(struct builder *b, const struct object_value *material) {
+    while (b->named_room <= material->definition) {
+        const uint32_t before = b->named_room;
+        b->named_materials = builder_grow(b, b->named_materials, before, &b->named_room, sizeof *b->named_materials);
+        for (uint32_t i = before; i < b->named_room; i++) b->named_materials[i] = NO_MATERIAL;
+    }
+    uint32_t *index = &b->named_materials[material->definition];
+    if (*index == NO_MATERIAL) *index = add_material(b, material_of(b, material));
+    return *index;
 }
 
 /* A light clay, with a soft highlight. */
@@ -214,7 +235,8 @@ static const struct material default_material = {
     .ambient = {0.62, 0.36, 0.22}, .diffuse = {0.62, 0.36, 0.22}, .specular = {0.25, 0.25, 0.25}, .shininess = 40, .index = 1};
 
 uint32_t material_index(struct builder *b, const struct object_value *material) {
-    if (material) return material->name ? material->definition : add_material(b, material_of(b, material));
+    if (material) return material->name ? named_material(b, material) : inline_material(b, material_of(b, material));
+    if (b->set->outer) return MATERIAL_INHERITED;
     if (b->default_material == NO_MATERIAL) b->default_material = add_material(b, default_material);
     return b->default_material;
 }

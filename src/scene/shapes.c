@@ -37,50 +37,65 @@ struct placement {
 };
 
 static void add_info(struct builder *b, const struct placement *at, enum primitive_kind kind, uint32_t index) {
-    struct primitives *p = &b->scene->primitives;
-    p->info = builder_grow(b, p->info, p->count, &b->info_room, sizeof *p->info);
+    struct primitives *p = &b->set->primitives;
+    p->info = builder_grow(b, p->info, p->count, &b->set->info_room, sizeof *p->info);
     p->info[p->count++] = (struct primitive_info){primitive_ref_make(kind, index), at->material};
 }
 
 /* Room for one more primitive of a kind and its number; false when there can be no more. */
 static bool make_room(struct builder *b, const struct placement *at, void **array, uint32_t **number, uint32_t count,
                       uint32_t *room, size_t size) {
-    if (count >= PRIMITIVE_MAX - 1 || b->scene->primitives.count >= UINT32_MAX - 1) {
+    if (count >= PRIMITIVE_MAX - 1 || b->set->primitives.count >= UINT32_MAX - 1) {
         diag_error(b->diag, at->span, "limit-objects", "more than %d primitives of one kind", PRIMITIVE_MAX - 1);
         return false;
     }
     uint32_t number_room = *room;
     *array = builder_grow(b, *array, count, room, size);
     *number = builder_grow(b, *number, count, &number_room, sizeof **number);
-    (*number)[count] = b->scene->primitives.count;
+    (*number)[count] = b->set->primitives.count;
     return true;
 }
 
 static void add_sphere(struct builder *b, const struct placement *at, double radius) {
-    struct primitives *p = &b->scene->primitives;
+    struct primitives *p = &b->set->primitives;
     void *array = p->spheres;
-    if (!make_room(b, at, &array, &p->sphere_number, p->sphere_count, &b->sphere_room, sizeof *p->spheres)) return;
+    if (!make_room(b, at, &array, &p->sphere_number, p->sphere_count, &b->set->sphere_room, sizeof *p->spheres)) return;
     p->spheres = array;
     p->spheres[p->sphere_count] = (struct sphere){affine_column(at->world_from_object, 3), radius};
     add_info(b, at, PRIMITIVE_SPHERE, p->sphere_count++);
 }
 
 static void add_flat(struct builder *b, const struct placement *at, affine object_from_world, enum flat_outline outline) {
-    struct primitives *p = &b->scene->primitives;
+    struct primitives *p = &b->set->primitives;
     void *array = p->flats;
-    if (!make_room(b, at, &array, &p->flat_number, p->flat_count, &b->flat_room, sizeof *p->flats)) return;
+    if (!make_room(b, at, &array, &p->flat_number, p->flat_count, &b->set->flat_room, sizeof *p->flats)) return;
     p->flats = array;
     p->flats[p->flat_count] = (struct flat){object_from_world, at->world_from_object, outline};
     add_info(b, at, PRIMITIVE_FLAT, p->flat_count++);
 }
 
 static void add_quadric(struct builder *b, const struct placement *at, affine object_from_world, const struct quadric_form *form) {
-    struct primitives *p = &b->scene->primitives;
+    struct primitives *p = &b->set->primitives;
     void *array = p->quadrics;
-    if (!make_room(b, at, &array, &p->quadric_number, p->quadric_count, &b->quadric_room, sizeof *p->quadrics)) return;
+    if (!make_room(b, at, &array, &p->quadric_number, p->quadric_count, &b->set->quadric_room, sizeof *p->quadrics)) return;
     p->quadrics = array;
     p->quadrics[p->quadric_count] = (struct quadric){object_from_world, at->world_from_object, form};
     add_info(b, at, PRIMITIVE_QUADRIC, p->quadric_count++);
+}
+
+void instance_add(struct builder *b, struct span span, affine world_from_object, uint32_t geometry, uint32_t material) {
+    const struct placement at = {span, world_from_object, material};
+    struct primitives *p = &b->set->primitives;
+    affine inverse;
+    if (!affine_invert(world_from_object, &inverse)) {
+        diag_error(b->diag, span, "flat-transform", "what is placed here is flattened, or its size or place is out of range");
+        return;
+    }
+    void *array = p->instances;
+    if (!make_room(b, &at, &array, &p->instance_number, p->instance_count, &b->set->instance_room, sizeof *p->instances)) return;
+    p->instances = array;
+    p->instances[p->instance_count] = (struct instance){inverse, world_from_object, geometry, material};
+    add_info(b, &at, PRIMITIVE_INSTANCE, p->instance_count++);
 }
 
 /* ---- The parameters a person thinks in ---- */
