@@ -21,8 +21,7 @@ static const char *value_text(const struct evaluation *e, const struct quantity 
 
 /* As it is written. */
 static const char *term_text(const struct evaluation *e, const struct term *term) {
-    const uint32_t length = term->end - term->begin;
-    return arena_format(e->arena, "`%.*s%s`", (int)(length < 40 ? length : 40), e->text + term->begin, length < 40 ? "" : "...");
+    return text_shown(e->arena, e->text, term->begin, term->end);
 }
 
 static const char *count_text(const struct evaluation *e, const struct quantity *q) {

@@ -19,12 +19,18 @@ static bool begins_value(struct token token) {
     return token.kind == TOKEN_NUMBER || token.kind == TOKEN_NAME || token.kind == TOKEN_COLOR || is_symbol(token, '(');
 }
 
-static char *text_of(const struct parser *p, struct token token) {
-    return arena_text(p->arena, p->text + token.offset, token.length < 40 ? token.length : 40);
+static char *text_of(const struct parser *p, struct token token) { return arena_text(p->arena, p->text + token.offset, token.length); }
+
+const char *text_shown(struct arena *arena, const char *text, uint32_t begin, uint32_t end) {
+    enum { MOST = 40 };
+    if (end - begin <= MOST) return arena_format(arena, "`%.*s`", (int)(end - begin), text + begin);
+    end = begin + MOST;
+    while (end > begin && ((unsigned char)text[end] & 0xc0) == 0x80) end--; /* no half of a character */
+    return arena_format(arena, "`%.*s...`", (int)(end - begin), text + begin);
 }
 
-const char *token_text(const struct parser *p, struct token token) {
-    return arena_format(p->arena, "`%s%s`", text_of(p, token), token.length < 40 ? "" : "...");
+static const char *token_text(const struct parser *p, struct token token) {
+    return text_shown(p->arena, p->text, token.offset, token.offset + token.length);
 }
 
 static bool is_word(const struct parser *p, struct token token, const char *word) {
@@ -130,15 +136,16 @@ bool slip_after_value(struct parser *p, struct token opener) {
 bool slip_no_value(struct parser *p) {
     const struct token t = p->token, last = p->last;
     const char *after = last.length ? arena_format(p->arena, " after %s", token_text(p, last)) : "";
+    const char *found = t.length ? arena_format(p->arena, ", found %s", token_text(p, t)) : "";
     const bool dangling = last.kind == TOKEN_SYMBOL && !strchr("([,", p->text[last.offset]);
     if (t.kind == TOKEN_END && last.length == 0) return bad(p, t, "there is no expression", NULL);
     if (t.kind == TOKEN_END || is_symbol(t, ')') || is_symbol(t, ']') || is_symbol(t, ','))
-        return bad(p, t, arena_format(p->arena, "expected a value%s", after),
+        return bad(p, t, arena_format(p->arena, "expected a value%s%s", after, found),
                    is_symbol(last, '%') ? "there is no percent: 50 % is 0.5"
                    : dangling           ? arena_format(p->arena, "leave out the %s, or write a value after it", token_text(p, last))
                    : is_symbol(last, ',') ? "leave out the `,`"
                                           : NULL);
-    return bad(p, t, arena_format(p->arena, "expected a value%s, found %s", after, token_text(p, t)), NULL);
+    return bad(p, t, arena_format(p->arena, "expected a value%s%s", after, found), NULL);
 }
 
 bool slip_no_colon(struct parser *p, struct token question) {
@@ -159,6 +166,6 @@ static bool slip_module(struct parser *p, const struct term *of) {
 
 bool slip_part(struct parser *p, const struct term *of, struct token point) {
     if (p->token.kind == TOKEN_NAME && !slip_module(p, of)) return false;
-    if (p->token.kind != TOKEN_NAME) return bad(p, point, "a point that belongs to no number and no part", "parts are .x .y .z, .r .g .b and [i]");
+    if (p->token.kind != TOKEN_NAME) return bad(p, point, "expected a part after `.`", "parts are .x .y .z, .r .g .b and [i]");
     return bad(p, p->token, arena_format(p->arena, "there is no part %s", token_text(p, p->token)), "parts are .x .y .z, .r .g .b and [i]");
 }
