@@ -26,9 +26,6 @@ double elementary_sin_deg(double angle_deg) { return sin_of_quarters(angle_deg, 
 double elementary_cos_deg(double angle_deg) { return sin_of_quarters(angle_deg, 1); }
 
 double elementary_tan_deg(double angle_deg) {
-    const double half_turn = fmod(angle_deg, 180.0); /* -180 .. 180 */
-    if (fabs(half_turn) == 45.0) return copysign(1.0, half_turn);
-    if (fabs(half_turn) == 135.0) return copysign(1.0, -half_turn);
     return elementary_sin_deg(angle_deg) / elementary_cos_deg(angle_deg);
 }
 

@@ -351,6 +351,29 @@ static void noise_is_smooth_and_fills_its_range(void **state) {
     }
 }
 
+/* At whole places the noise is its slope there times the way. */
+static void slopes_of_noise_point_everywhere(void **state) {
+    (void)state;
+    static const double mean_square[] = {0, 4.0 / 3, 1, 4.0 / 9};
+    enum { TIMES = 3000 };
+    for (unsigned dimensions = 1; dimensions <= 3; dimensions++)
+        for (unsigned axis = 0; axis < dimensions; axis++) {
+            double sum = 0, squares = 0;
+            for (int i = 0; i < TIMES; i++) {
+                double at[] = {i % 13 - 6, i / 13 % 17 - 8, floor(i / 221)};
+                if (dimensions == 1) at[0] = i;
+                if (dimensions == 2) at[1] = floor(i / 13);
+                at[axis] += 1e-3;
+                const double slope = call_at("noise", dimensions, at) * 1e3;
+                sum += slope;
+                squares += slope * slope;
+            }
+            const double deviation = sqrt(mean_square[dimensions] / TIMES);
+            assert_near(sum / TIMES, 0, 4 * deviation, "mean slope");
+            assert_near(squares / TIMES, mean_square[dimensions], 0.08 * mean_square[dimensions], "mean square of slopes");
+        }
+}
+
 static void noise_goes_far_out(void **state) {
     (void)state;
     assert_true(call("noise(1e300)") == 0);
@@ -367,6 +390,7 @@ int main(void) {
         cmocka_unit_test(random_numbers_are_even),
         cmocka_unit_test(random_is_the_same_everywhere),
         cmocka_unit_test(noise_is_smooth_and_fills_its_range),
+        cmocka_unit_test(slopes_of_noise_point_everywhere),
         cmocka_unit_test(noise_goes_far_out),
     };
     return cmocka_run_group_tests_name("oracles", tests, NULL, NULL) + cmocka_run_group_tests_name("random", others, NULL, NULL);
