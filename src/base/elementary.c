@@ -17,7 +17,8 @@ static double sin_of_quarters(double angle_deg, int quarters_on) {
     const double quarter = floor(turn / 90.0 + 0.5);
     const double rest = turn - 90.0 * quarter;
     const int which = ((int)quarter + quarters_on) & 3;
-    const double half = which & 1 ? Sleef_cinz_cospid1_u05purec(rest / 180.0) : Sleef_cinz_sinpid1_u05purec(rest / 180.0);
+    const double half =
+        which & 1 ? Sleef_cinz_cospid1_u05purec(rest / 180.0) : Sleef_cinz_sinpid1_u05purec(rest / 180.0);
     const double exact = !(which & 1) && fabs(rest) == 30.0 ? copysign(0.5, rest) : half;
     return which & 2 ? -exact : exact;
 }

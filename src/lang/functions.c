@@ -218,7 +218,8 @@ static double call_part(const struct implementation *f, const double *v, unsigne
     return fold(f->folded, v, count);
 }
 
-enum function_result function_call(int function, const struct quantity *args, unsigned count, struct quantity *out) {
+enum function_result function_call(int function, const struct quantity *args, unsigned count,
+                                   struct quantity *out) {
     const struct implementation *f = &implementations[function];
     if (f->whole) return f->whole(args, count, out);
     struct quantity result = {.count = args[0].count};

@@ -499,6 +499,13 @@ static void what_is_too_much_is_an_error(void **state) {
     }
 }
 
+static void a_zero_byte_is_no_end(void **state) {
+    (void)state;
+    assert_string_equal(code_of("1\0", 2), "bad-expression");
+    assert_string_equal(code_of("1 + \0 2", 7), "bad-expression");
+    assert_string_equal(code_of("n\0n", 3), "bad-expression");
+}
+
 static void any_bytes_end_well(void **state) {
     (void)state;
     struct random r = random_begin();
@@ -537,6 +544,7 @@ int main(void) {
         cmocka_unit_test(names_in_scope_are_sorted_and_few),
         cmocka_unit_test(examples_give_what_they_say),
         cmocka_unit_test(what_is_too_much_is_an_error),
+        cmocka_unit_test(a_zero_byte_is_no_end),
         cmocka_unit_test(any_bytes_end_well),
         cmocka_unit_test(any_words_end_well),
     };
