@@ -229,12 +229,23 @@ static void write_keys(FILE *out, const char *name, const struct node *kind) {
     fputs("};\n", out);
 }
 
+/* Bit i: key i has the field, and it is not false. */
+static unsigned long long keys_with(const struct node *kind, const char *field) {
+    unsigned long long mask = 0, bit = 1;
+    for (const struct node *k = get(kind, "keys")->first; k; k = k->next->next, bit <<= 1) {
+        const struct node *value = get(k->next, field);
+        if (value && (value->kind != NODE_SCALAR || is_true(k->next, field))) mask |= bit;
+    }
+    return mask;
+}
+
 static void write_kind(FILE *out, const char *name, const struct node *kind) {
     fprintf(out, "    {\"%s\", ", name);
     write_string(out, text_of(kind, "title"));
     fputs(", ", out);
     write_string(out, text_of(kind, "doc"));
-    fprintf(out, ", keys_%s, KEYS_%s},\n", name, upper(name));
+    fprintf(out, ", keys_%s, KEYS_%s, 0x%llx, 0x%llx, 0x%llx},\n", name, upper(name), keys_with(kind, "required"), keys_with(kind, "alternative"),
+            keys_with(kind, "excludes") | keys_with(kind, "needs"));
 }
 
 static void write_colors(FILE *out, const struct node *colors) {

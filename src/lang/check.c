@@ -341,26 +341,40 @@ static bool check_pairs(struct checker *ck, struct object_value *object, struct 
     return unknown;
 }
 
+/* Bit i: key i of the kind is in the mapping. */
+static uint64_t find_given(const struct grammar_kind *kind, struct mapping *mapping) {
+    uint64_t given = 0;
+    memset(mapping->given, 0, (size_t)kind->key_count * sizeof *mapping->given);
+    memset(mapping->meant, 0, (size_t)kind->key_count * sizeof *mapping->meant);
+    for (const struct node *name = mapping->node->first; name; name = name->next->next) {
+        const int index = key_index(kind, name);
+        if (index < 0 || mapping->given[index]) continue;
+        mapping->given[index] = name;
+        given |= (uint64_t)1 << index;
+    }
+    return given;
+}
+
+static bool is_one(uint64_t bits) { return bits && !(bits & (bits - 1)); }
+
 struct object_value *check_object(struct checker *ck, const struct grammar_kind *kind, const struct node *node) {
-    struct mapping mapping = {.node = node_resolve(node)};
+    struct mapping mapping;
+    mapping.node = node_resolve(node);
     if (mapping.node->kind != NODE_MAPPING) {
         report_no_mapping(ck, kind, node);
         return NULL;
     }
     assert(kind->key_count <= CHECK_MAX_KEYS);
-    for (const struct node *name = mapping.node->first; name; name = name->next->next) {
-        const int index = key_index(kind, name);
-        if (index >= 0 && !mapping.given[index]) mapping.given[index] = name;
-    }
-    struct object_value *object = arena_alloc(ck->arena, sizeof *object);
+    const uint64_t given = find_given(kind, &mapping);
+    struct object_value *object = arena_alloc(ck->arena, sizeof *object + (size_t)kind->key_count * sizeof *object->fields);
     object->kind = kind;
     object->span = node->span;
-    object->fields = arena_array(ck->arena, (size_t)kind->key_count, sizeof *object->fields);
+    object->fields = (struct value **)(object + 1);
     mapping.object = object;
     const bool unknown = check_pairs(ck, object, &mapping);
-    check_required(ck, object, &mapping);
-    check_alternatives(ck, object, &mapping, unknown);
-    for (int i = 0; i < kind->key_count; i++)
+    if (kind->required & ~given) check_required(ck, object, &mapping);
+    if (kind->alternatives && !is_one(kind->alternatives & given)) check_alternatives(ck, object, &mapping, unknown);
+    for (int i = 0; i < kind->key_count && (kind->companions & given) >> i; i++)
         if (mapping.given[i]) check_companion(ck, object, &mapping, i);
     if (kind == &grammar_kinds[KIND_MATERIAL] && !inherit(ck, object)) object->failed = true;
     return object;

@@ -135,6 +135,9 @@ struct object_value *check_object(struct checker *ck, const struct grammar_kind 
 /* Whether the node can name a variable: a word that nothing else has. Reported if not; `what` is "a parameter". */
 bool define_name_allowed(struct checker *ck, const char *what, const struct node *name);
 
+/* Why no variable can have this name, or NULL. */
+const char *define_name_taken(const char *name);
+
 /* Makes the names known that the unit has so far, and reads what can be read of them. */
 void define_names(struct checker *ck, struct unit *unit);
 

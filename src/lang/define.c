@@ -9,13 +9,13 @@
 
 /* ---- What may be a name ---- */
 
-static const char *taken_by(const char *name) {
+const char *define_name_taken(const char *name) {
     static const char *const moving[] = {"frame", "t", "time"};
     vec3 color;
     for (int i = 0; i < 3; i++)
         if (strcmp(name, moving[i]) == 0) return "the animation has that name";
-    for (int i = 0; i < grammar_function_count; i++)
-        if (strcmp(name, grammar_functions[i].name) == 0) return "a function or a constant has that name";
+    for (int i = 0; i < grammar_constant_count; i++)
+        if (strcmp(name, grammar_constants[i].name) == 0) return "a constant has that name";
     return color_parse(name, &color) ? "a colour has that name" : NULL;
 }
 
@@ -25,7 +25,7 @@ bool define_name_allowed(struct checker *ck, const char *what, const struct node
         diag_error(ck->diag, name->span, "key-not-a-word", "the name of %s is a word, found %s", what + 2, found_text(ck, name));
         return false;
     }
-    const char *taken = scope_is_name(n->text) ? taken_by(n->text) : "letters, digits and _ make a name, the first no digit";
+    const char *taken = scope_is_name(n->text) ? define_name_taken(n->text) : "letters, digits and _ make a name, the first no digit";
     if (taken) diag_help(ck->diag, diag_error(ck->diag, name->span, "bad-name", "%s cannot be named `%s`", what, short_text(ck, n->text)), "%s", taken);
     return !taken;
 }

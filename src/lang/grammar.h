@@ -4,6 +4,7 @@
 #define MONGE_LANG_GRAMMAR_H
 
 #include <stdbool.h>
+#include <stdint.h>
 
 enum grammar_type {
     GRAMMAR_NUMBER,    /* a number */
@@ -58,6 +59,7 @@ struct grammar_kind {
     const char *doc;
     const struct grammar_key *keys;
     int key_count;
+    uint64_t required, alternatives, companions; /* the keys that are so, or name others by excludes or needs: bit i is key i */
 };
 
 /* The key of that name, or -1. */

@@ -118,27 +118,21 @@ static void report_no_number(struct checker *ck, const struct grammar_key *key, 
     if (n->kind == NODE_SCALAR && n->count <= 100) help_scalar(ck, d, n->text);
 }
 
-/* Exact where the digits are few enough that their product with a power of ten rounds once
- * (Clinger, "How to read floating point numbers accurately", 1990); false elsewhere. */
+/* A plain decimal: exact where the digits are few enough that their product with a power of ten rounds once
+ * (Clinger, "How to read floating point numbers accurately", 1990). False: it is none, or too long. */
 static bool short_number(const char *text, double *out) {
     static const double powers[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
                                     1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
     uint64_t digits = 0;
-    int count = 0, places = 0;
-    const char *c = text + (*text == '-' || *text == '+');
-    for (bool point = false; *c; c++) {
-        if (*c == '.' && !point) {
-            point = true;
-            continue;
-        }
-        if (!isdigit((unsigned char)*c)) return false;
-        digits = 10 * digits + (uint64_t)(*c - '0');
-        count += digits > 0;
-        places += point;
-        if (count > 18 || places > 22) return false;
-    }
-    if (digits >> 53) return false;
-    const double value = (double)digits / powers[places];
+    const char *c = text + (*text == '-' || *text == '+'), *begin = c;
+    for (; (unsigned)(*c - '0') < 10; c++) digits = 10 * digits + (uint64_t)(*c - '0');
+    const ptrdiff_t whole = c - begin;
+    if (whole > 1 && *begin == '0') return false;
+    if (*c == '.')
+        for (c++; (unsigned)(*c - '0') < 10; c++) digits = 10 * digits + (uint64_t)(*c - '0');
+    const ptrdiff_t places = c - begin - whole - (c > begin + whole), count = whole + places;
+    if (*c || count < 1 || count > 18 || digits >> 53) return false;
+    const double value = places ? (double)digits / powers[places] : (double)digits;
     *out = *text == '-' ? -value : value;
     return true;
 }
@@ -151,9 +145,9 @@ static double to_double(struct checker *ck, const char *number) {
 }
 
 bool scalar_number(struct checker *ck, const char *text, double *out) {
-    double value;
+    if (short_number(text, out)) return true;
     if (!scalar_is_number(text) || has_leading_zero(text)) return false;
-    if (!short_number(text, &value)) value = to_double(ck, text);
+    const double value = to_double(ck, text);
     if (!isfinite(value)) return false;
     *out = value;
     return true;

@@ -28,6 +28,13 @@ static const struct binding *find_moving(struct checker *ck, const char *name) {
     return b;
 }
 
+static bool is_moving(const char *name) {
+    return strcmp(name, "frame") == 0 || strcmp(name, "t") == 0 || strcmp(name, "time") == 0;
+}
+
+/* Whether a name that is not there yet can be that of a parameter, or of the animation. */
+static bool may_come(const char *name) { return is_moving(name) || !define_name_taken(name); }
+
 const struct binding *scope_find(struct checker *ck, const char *name) {
     for (const struct scope *s = ck->scope; s; s = s->outer)
         for (unsigned i = s->count; i-- > 0;)
@@ -35,7 +42,7 @@ const struct binding *scope_find(struct checker *ck, const char *name) {
     struct parameter *parameter = table_find(&ck->parameters, name);
     if (parameter) return define_parameter(ck, parameter);
     const struct binding *moving = find_moving(ck, name);
-    if (!moving && ck->provisional) ck->waiting = true;
+    if (!moving && ck->provisional && may_come(name)) ck->waiting = true;
     return moving;
 }
 
