@@ -13,12 +13,12 @@ pending=''
 
 # Not in tests/errors/: what no scene gives.
 elsewhere='
-cannot-read         no scene: tests/cli.sh
-cannot-write        no scene: tests/cli.sh
-limit-file-bytes    a file of 1 GiB: tests/unit/test_file.c
-limit-memory        a scene of 8 GiB: tests/unit/test_report.c
-limit-objects       more primitives than fit into memory
-out-of-memory       the system without memory
+cannot-read         no scene: tests/formats/expected.json
+cannot-write        no scene: tests/formats.sh
+limit-file-bytes    a file of over 1 GiB: tests/unit/test_diagnostics.c
+limit-memory        a scene of over 8 GiB: tests/unit/test_diagnostics.c
+limit-objects       more primitives than there is memory for
+out-of-memory       a system without memory
 '
 
 check() { # check NAME COMMAND...: a test that passes when the command succeeds.
@@ -61,6 +61,10 @@ seen >"$work/seen"
 words "$elsewhere" >"$work/elsewhere"
 comm -23 "$work/defined" "$work/elsewhere" >"$work/scenes"
 check "tests/errors/ (-) has each of the codes (+)" same "$work/seen" "$work/scenes"
+
+while read -r code why; do
+    file=$(grep -o 'tests/.*' <<<"$why") && check "$code is in $file" grep -qF -e "\"$code\"" "$file"
+done <<<"$elsewhere"
 
 # ---- The severities are those of the code ----
 

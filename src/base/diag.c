@@ -80,7 +80,7 @@ static bool place_before(const struct place *a, const struct place *b) {
 
 static bool already_there(const struct diagnostics *diag, const struct diagnostic *d) {
     for (const struct diagnostic *e = diag->first; e; e = e->next)
-        if (e->severity == d->severity && same_file(&e->place, &d->place) && e->place.line == d->place.line &&
+        if (e->load == d->load && e->severity == d->severity && same_file(&e->place, &d->place) && e->place.line == d->place.line &&
             e->place.column == d->place.column && strcmp(e->message, d->message) == 0)
             return true;
     return false;
@@ -106,7 +106,10 @@ static char *format_text(struct arena *arena, const char *format, va_list args) 
     return text;
 }
 
-void diag_begin(struct diagnostics *diag) { diag->before = diag->kept; }
+void diag_begin(struct diagnostics *diag) {
+    diag->load++;
+    diag->before = diag->kept;
+}
 
 bool diag_full(const struct diagnostics *diag) { return diag->kept - diag->before >= DIAG_MAX_KEPT; }
 
@@ -145,6 +148,7 @@ static struct diagnostic *add(struct diagnostics *diag, enum severity severity, 
     struct diagnostic *d = arena_alloc(&diag->arena, sizeof *d);
     d->severity = severity;
     d->code = code;
+    d->load = diag->load;
     d->message = format_text(&diag->arena, format, args);
     d->place = make_place(diag, span);
     if (already_there(diag, d)) return d;

@@ -44,6 +44,7 @@ struct diagnostic {
     const char *help;    /* the smallest fix, drawn behind the caret; NULL: none */
     const char *note;    /* background in a line of its own; NULL: none */
     struct related *related;
+    unsigned load; /* which of the loads told it */
     struct diagnostic *next;
 };
 
@@ -63,16 +64,16 @@ struct diagnostics {
     const struct diag_frame *frame; /* NULL: nothing is under way */
     struct diagnostic *first;
     unsigned kept;
-    unsigned before; /* kept when diag_begin was called */
+    unsigned load, before; /* how many loads have begun; how many were kept when the last one did */
     struct diagnostic beyond; /* stands for the ones that are not kept */
     unsigned errors, warnings, failures; /* all of them, the ones not kept too */
 };
 
-/* A load begins: as many may be kept of it as of the one before. */
+/* A load begins: as many may be kept of it as of the one before, and what that one told may be told again. */
 void diag_begin(struct diagnostics *diag);
 
 /* `code` is static. Each returns the diagnostic, to add help, a note or related places to; never NULL. The same
- * message at the same place is kept and counted once, as long as there is room to keep it. What
+ * message of a load at the same place is kept and counted once, as long as there is room to keep it. What
  * they are told of a file may be in any bytes: it comes out as UTF-8 that a terminal can take. */
 struct diagnostic *diag_error(struct diagnostics *diag, struct span span, const char *code, const char *format, ...)
     __attribute__((format(printf, 4, 5)));

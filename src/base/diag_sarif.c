@@ -1,15 +1,31 @@
-/* SARIF 2.1.0, the Static Analysis Results Interchange Format (OASIS, 2020). No message has arguments, so
- * braces in a text stand for themselves. */
+/* SARIF 2.1.0, the Static Analysis Results Interchange Format (OASIS, 2020). */
 #include <ctype.h>
 #include <string.h>
 
 #include "base/diag_write.h"
 #include "base/json.h"
 
-static void write_message(struct json *json, const char *key, const char *text) {
+/* The lines of a message string, up to a NULL. Braces are doubled, as single ones enclose placeholders (3.11.5). */
+static void write_lines(struct json *json, const char *key, const char *const lines[]) {
     json_open(json, key, '{');
-    json_text(json, "text", text);
+    json_key(json, "text");
+    fputc('"', json->out);
+    for (int i = 0; lines[i]; i++) {
+        if (i > 0) json_escape("\n", 1, json->out);
+        for (const char *at = lines[i]; *at;) {
+            const size_t plain = strcspn(at, "{}");
+            json_escape(at, plain, json->out);
+            at += plain;
+            if (*at) fprintf(json->out, "%c%c", *at, *at);
+            at += *at != '\0';
+        }
+    }
+    fputc('"', json->out);
     json_close(json, '}');
+}
+
+static void write_message(struct json *json, const char *key, const char *text) {
+    write_lines(json, key, (const char *const[]){text, NULL});
 }
 
 /* ---- Rules ---- */
@@ -85,20 +101,13 @@ static void write_related(struct json *json, const struct related *first) {
     json_close(json, ']');
 }
 
-/* The message with its help and note as lines of their own. */
+/* The message, then its help and its note. */
 static void write_texts(struct json *json, const struct diagnostic *d) {
-    const char *const more[] = {d->help, d->note};
-    json_open(json, "message", '{');
-    json_key(json, "text");
-    fputc('"', json->out);
-    json_escape(d->message, json->out);
-    for (size_t i = 0; i < sizeof more / sizeof *more; i++) {
-        if (!more[i]) continue;
-        json_escape("\n", json->out);
-        json_escape(more[i], json->out);
-    }
-    fputc('"', json->out);
-    json_close(json, '}');
+    const char *lines[4] = {d->message};
+    int count = 1;
+    if (d->help) lines[count++] = d->help;
+    if (d->note) lines[count++] = d->note;
+    write_lines(json, "message", lines);
 }
 
 static void write_result(struct json *json, const struct diagnostic *d) {

@@ -4,11 +4,12 @@
 
 #include "base/utf8.h"
 
-void json_escape(const char *text, FILE *out) {
-    for (size_t left = strlen(text), bytes; left > 0; text += bytes, left -= bytes) {
-        const uint32_t code = utf8_decode(text, left, &bytes);
+void json_escape(const char *text, size_t size, FILE *out) {
+    for (size_t bytes; size > 0; text += bytes, size -= bytes) {
+        const uint32_t code = utf8_decode(text, size, &bytes);
         if (code == UINT32_MAX) fputs("\\ufffd", out);
         else if (code == '"' || code == '\\') fprintf(out, "\\%c", (int)code);
+        else if (code == '\n') fputs("\\n", out);
         else if (code < 0x20 || code == 0x7f) fprintf(out, "\\u%04x", (unsigned)code);
         else fwrite(text, 1, bytes, out);
     }
@@ -16,7 +17,7 @@ void json_escape(const char *text, FILE *out) {
 
 void json_string(const char *text, FILE *out) {
     fputc('"', out);
-    json_escape(text, out);
+    json_escape(text, strlen(text), out);
     fputc('"', out);
 }
 

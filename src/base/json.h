@@ -19,9 +19,11 @@ struct json {
     bool started; /* whether the innermost of it has a value */
 };
 
-/* A text in quotes, and what belongs between them. It may be in any bytes: what is no UTF-8 becomes U+FFFD. */
+/* A text in quotes. It may be in any bytes: what is no UTF-8 becomes U+FFFD. */
 void json_string(const char *text, FILE *out);
-void json_escape(const char *text, FILE *out);
+
+/* What stands between the quotes, of `size` bytes. */
+void json_escape(const char *text, size_t size, FILE *out);
 
 /* Each writes a value: of `key` within an object; in a list, or alone, key is NULL. */
 void json_open(struct json *json, const char *key, char bracket); /* '{' or '[' */
