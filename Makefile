@@ -40,10 +40,11 @@ SOURCES := $(wildcard $(STATIONS:%=src/%/*.c)) $(FACE)
 UNIT := $(wildcard tests/unit/test_*.c)
 ifneq ($(filter lang,$(STATIONS)),)
 GRAMMAR := $(BUILD)/gen/grammar_tables
+STORIES := $(BUILD)/gen/stories
 endif
 
 object = $(patsubst %.c,$(BUILD)/obj/%.o,$(1))
-OBJECTS := $(call object,$(filter-out src/cli/%,$(SOURCES))) $(GRAMMAR:$(BUILD)/%=$(BUILD)/obj/%.o)
+OBJECTS := $(call object,$(filter-out src/cli/%,$(SOURCES))) $(patsubst $(BUILD)/%,$(BUILD)/obj/%.o,$(GRAMMAR) $(STORIES))
 CLI_OBJECTS := $(call object,$(filter src/cli/%,$(SOURCES)))
 TOOL_OBJECTS := $(call object,$(wildcard src/base/*.c src/lang/yaml.c src/lang/spelling.c))
 
@@ -110,9 +111,10 @@ coverage: deps ## the tests with gcc's line coverage, per file of src/; fails be
 bench: all ## time scenes/report/final.yaml at 1024x1024
 	@tools/bench $(BUILD)/monge
 
-reference: ## make grammar/reference.md anew from grammar/*.yaml
-	+@$(SUBMAKE) $(BUILD)/tools/grammar
+reference: ## make grammar/reference.md and grammar/errors.md anew from grammar/*.yaml
+	+@$(SUBMAKE) $(BUILD)/tools/grammar $(BUILD)/tools/diagnostics
 	$(BUILD)/tools/grammar reference grammar grammar/reference.md
+	$(BUILD)/tools/diagnostics reference grammar/diagnostics.yaml grammar/errors.md
 
 format: ## lay out the code by .clang-format, where clang-format is installed
 	@if command -v clang-format >/dev/null; then clang-format -i $(wildcard src/*.[ch] src/*/*.[ch] tests/unit/*.[ch] tools/*.c); \
@@ -140,7 +142,7 @@ BIN = $(DESTDIR)$(PREFIX)/bin
 LIB = $(DESTDIR)$(PREFIX)/lib
 INCLUDE = $(DESTDIR)$(PREFIX)/include
 SHARE = $(DESTDIR)$(PREFIX)/share
-DOCS = README.md LICENSE grammar/reference.md
+DOCS = README.md LICENSE grammar/reference.md grammar/errors.md
 BASH_COMPLETION = $(SHARE)/bash-completion/completions/monge
 ZSH_COMPLETION = $(SHARE)/zsh/site-functions/_monge
 FISH_COMPLETION = $(SHARE)/fish/vendor_completions.d/monge.fish
@@ -195,6 +197,16 @@ $(BUILD)/tools/grammar: $(BUILD)/obj/tools/grammar.o $(TOOL_OBJECTS)
 	@mkdir -p $(@D)
 	$(call say,link,$@)
 	$(QUIET)$(LINK) -o $@ $^ $(LIBS)
+
+$(BUILD)/tools/diagnostics: $(call object,tools/diagnostics.c src/lang/file.c) $(TOOL_OBJECTS)
+	@mkdir -p $(@D)
+	$(call say,link,$@)
+	$(QUIET)$(LINK) -o $@ $^ $(LIBS)
+
+$(BUILD)/gen/stories.c: $(BUILD)/tools/diagnostics grammar/diagnostics.yaml
+	@mkdir -p $(@D)
+	$(call say,gen,$@)
+	$(QUIET)$< tables grammar/diagnostics.yaml $@
 
 $(BUILD)/gen/grammar_tables.h: $(BUILD)/tools/grammar $(wildcard grammar/*.yaml) scenes/presets.yaml
 	@mkdir -p $(@D)

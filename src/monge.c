@@ -6,9 +6,12 @@
 #include <time.h>
 
 #include "accel/accel.h"
+#include "base/diag_write.h"
+#include "base/json.h"
 #include "image/png.h"
 #include "lang/file.h"
 #include "lang/lang.h"
+#include "lang/stories.h"
 #include "render/render.h"
 #include "scene/scene.h"
 
@@ -38,6 +41,25 @@ unsigned monge_diagnostics_errors(const struct monge_diagnostics *diag) { return
 unsigned monge_diagnostics_warnings(const struct monge_diagnostics *diag) { return diag->list.warnings; }
 unsigned monge_diagnostics_failures(const struct monge_diagnostics *diag) { return diag->list.failures; }
 void monge_diagnostics_print(const struct monge_diagnostics *diag, FILE *out) { diag_print(&diag->list, out); }
+
+void monge_diagnostics_write(const struct monge_diagnostics *diag, enum monge_format format, FILE *out) {
+    switch (format) {
+    case MONGE_FORMAT_TEXT: diag_print(&diag->list, out); break;
+    case MONGE_FORMAT_JSON: diag_write_json(&diag->list, out); break;
+    case MONGE_FORMAT_SARIF: diag_write_sarif(&diag->list, stories, MONGE_VERSION, out); break;
+    }
+}
+
+const char *monge_code(size_t index) { return index < stories.count ? stories.first[index].code : NULL; }
+const char *monge_code_summary(size_t index) { return index < stories.count ? stories.first[index].summary : NULL; }
+
+bool monge_explain(const char *code, FILE *out) {
+    const struct diag_story *story = diag_find_story(stories, code);
+    if (story) diag_explain(story, out);
+    return story != NULL;
+}
+
+void monge_write_json_string(const char *text, FILE *out) { json_string(text, out); }
 
 /* ---- Loading ---- */
 
@@ -126,6 +148,7 @@ static struct monge_load_options load_options(const struct monge_load_options *g
 }
 
 static struct monge_scene *run_load(struct load *load) {
+    diag_begin(load->diag);
     load->scene = calloc(1, sizeof *load->scene);
     if (!load->scene) {
         diag_failure(load->diag, "out-of-memory", "%s: out of memory", load->name);

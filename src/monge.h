@@ -39,6 +39,22 @@ unsigned monge_diagnostics_failures(const struct monge_diagnostics *diag); /* of
 /* All so far as text for people, `file:line:col: error[code]: ...` and the line with a caret; by place. */
 void monge_diagnostics_print(const struct monge_diagnostics *diag, FILE *out);
 
+/* All so far as a document, for people (as monge_diagnostics_print has it) or for programs: a JSON array of
+ * objects, or SARIF 2.1.0. README.md has their members. */
+enum monge_format { MONGE_FORMAT_TEXT, MONGE_FORMAT_JSON, MONGE_FORMAT_SARIF };
+void monge_diagnostics_write(const struct monge_diagnostics *diag, enum monge_format format, FILE *out);
+
+/* The codes of diagnostics, sorted, from 0: NULL past the last. Static, as is what one means in a sentence. */
+const char *monge_code(size_t index);
+const char *monge_code_summary(size_t index);
+
+/* Prints what a code means, why it matters and how to mend it, with an example. False, with nothing printed, where
+ * there is no such code. */
+bool monge_explain(const char *code, FILE *out);
+
+/* A text as a JSON string, in quotes; what is no UTF-8 in it becomes U+FFFD. */
+void monge_write_json_string(const char *text, FILE *out);
+
 /* ---- Scenes ---- */
 
 /* What one load may use. Past a limit the load ends with an error that names it. 0: the default. */

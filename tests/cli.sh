@@ -109,7 +109,7 @@ exits 0 --help; out_has 'usage: monge COMMAND'; out_has 'render SCENE...'; no_er
 exits 0 -h; out_has 'usage: monge COMMAND'
 exits 0 help; out_has 'usage: monge COMMAND'
 exits 2; err_has 'usage: monge COMMAND'; no_out
-for command in render check help; do
+for command in render check explain help; do
     exits 0 help $command; out_has "usage: monge $command"
     cp out expected
     exits 0 $command --help; ok "$command --help is help $command" cmp out expected
@@ -122,7 +122,7 @@ exits 2 help rendre; err_has 'did you mean `render`?'
 exits 2 help render check; err_has 'help: expected one command'
 
 exits 0 help --man; out_has '.TH MONGE 1'; out_has '.SH EXIT STATUS'
-for option in output size samples region shading shadow no\\-shadows depth bits encoding threads stats progress quiet; do
+for option in output size samples region shading shadow no\\-shadows depth bits encoding threads stats progress format quiet; do
     out_has "\\-\\-$option"
 done
 have man && ok "the manual page has no roff warnings" [ -z "$(LC_ALL=C.UTF-8 man --warnings -l out 2>&1 >/dev/null)" ]
@@ -133,6 +133,7 @@ ok "bash completes a command" [ "$(complete_bash monge re)" = 'render ' ]
 ok "bash completes an option" [ "$(complete_bash monge render --sh)" = '--shading --shadow ' ]
 ok "bash completes a choice" [ "$(complete_bash monge render --shading '')" = 'diffuse phong signature ' ]
 ok "bash completes a choice after =" [ "$(complete_bash monge render --shading = d)" = 'diffuse ' ]
+ok "bash completes a code" [ "$(complete_bash monge explain no-li)" = 'no-light ' ]
 ok "bash completes a scene" [ "$(complete_bash monge check w)" = 'with space.yaml wrong.yaml ' ]
 exits 0 help --completion=zsh; out_has '#compdef monge'
 have zsh && ok "the zsh completion parses" zsh -n out
@@ -321,6 +322,25 @@ ok "the verdicts in order" [ "$(cat out)" = "$(printf 'one.yaml: ok\nwrong.yaml:
 err_has 'wrong.yaml:2:'
 exits 1 check --quiet one.yaml wrong.yaml; ok "quiet says what is wrong" [ "$(cat out)" = 'wrong.yaml: 1 error' ]
 exits 2 check wrong.yaml absent.yaml; out_has 'absent.yaml: not read'; err_has 'No such file or directory'
+
+exits 1 check --format json one.yaml wrong.yaml; out_has '"code": "unknown-key"'; no_err
+exits 0 check --quiet --format sarif one.yaml; out_has '"version": "2.1.0"'; no_err
+exits 2 check --format xml one.yaml; err_has 'expected text, json or sarif'
+exits 2 check --format json one.yaml --nonsense; no_out
+exits 1 render --format json "${small[@]}" wrong.yaml one.yaml -o formats/; err_has '"code": "unknown-key"'; no_out
+ok "the document is all there is" [ "$(head -c 1 err)$(tail -n 1 err)" = '[]' ]
+is_png formats/one.png
+exits 0 render --format json "${small[@]}" one.yaml -o - ; ok "no mistakes" [ "$(cat err)" = '[]' ]; is_png out
+
+# ---- explain ----
+
+exits 0 explain; out_has 'unknown-key '; no_err
+ok "a line for each code" [ "$(wc -l <out)" -gt 50 ]
+exits 0 explain unknown-key; out_has 'unknown-key (error)'; out_has 'raduis'; no_err
+exits 0 explain unknown-key no-light; out_has 'unknown-key (error)'; out_has 'no-light (warning)'
+exits 2 explain unknown-kye; err_has 'did you mean `unknown-key`?'; no_out
+exits 2 explain zzzzzzzz; err_has '`monge explain` lists them'; no_out
+exits 2 explain --format json; err_has '--format'
 
 # ---- Statistics ----
 

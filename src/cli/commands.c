@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "cli/check.h"
+#include "cli/explain.h"
 #include "cli/help.h"
 #include "cli/options.h"
 #include "cli/render.h"
@@ -10,10 +11,11 @@
 #include "cli/suggest.h"
 #include "monge.h"
 
-#define IN_NONE   (1u << COMMAND_NONE)
-#define IN_RENDER (1u << COMMAND_RENDER)
-#define IN_CHECK  (1u << COMMAND_CHECK)
-#define IN_HELP   (1u << COMMAND_HELP)
+#define IN_NONE    (1u << COMMAND_NONE)
+#define IN_RENDER  (1u << COMMAND_RENDER)
+#define IN_CHECK   (1u << COMMAND_CHECK)
+#define IN_EXPLAIN (1u << COMMAND_EXPLAIN)
+#define IN_HELP    (1u << COMMAND_HELP)
 
 /* The words of a choice stand in the order of the enum that they become. */
 const struct option_row OPTION_TABLE[OPTIONS] = {
@@ -40,12 +42,14 @@ const struct option_row OPTION_TABLE[OPTIONS] = {
                       "write times, rays and memory as JSON"},
     [OPTION_PROGRESS] = {"progress", 0, VALUE_CHOICE, IN_RENDER, "auto|always|never", 0, 0,
                          "show a progress bar; auto: where standard error is a terminal"},
+    [OPTION_FORMAT] = {"format", 0, VALUE_CHOICE, IN_RENDER | IN_CHECK, "text|json|sarif", 0, 0,
+                       "how to report what is wrong: for people, or as one document for programs"},
     [OPTION_QUIET] = {"quiet", 'q', VALUE_NONE, IN_RENDER | IN_CHECK, NULL, 0, 0,
                       "report nothing but what is wrong"},
     [OPTION_MAN] = {"man", 0, VALUE_NONE, IN_HELP, NULL, 0, 0, "print the manual page, as roff"},
     [OPTION_COMPLETION] = {"completion", 0, VALUE_CHOICE, IN_HELP, "bash|zsh|fish", 0, 0,
                            "print the completion script of a shell"},
-    [OPTION_HELP] = {"help", 'h', VALUE_NONE, IN_NONE | IN_RENDER | IN_CHECK | IN_HELP, NULL, 0, 0,
+    [OPTION_HELP] = {"help", 'h', VALUE_NONE, IN_NONE | IN_RENDER | IN_CHECK | IN_EXPLAIN | IN_HELP, NULL, 0, 0,
                      "show this help"},
     [OPTION_VERSION] = {"version", 0, VALUE_NONE, IN_NONE, NULL, 0, 0, "show the version"},
 };
@@ -78,7 +82,10 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                      "{name} stands for NAME. A picture is complete or absent: it is written under "
                      "a temporary name and then renamed.",
                      "The scene - is standard input; its picture goes to standard output unless -o "
-                     "says otherwise. -o - is standard output."},
+                     "says otherwise. -o - is standard output.",
+                     "With --format json or sarif everything that is wrong comes as one document on "
+                     "standard error at the end, with --quiet implied; wrong usage is still told as "
+                     "text. `monge help check` tells what is in it."},
             .examples = {{"monge render king.yaml", "writes king.png"},
                          {"monge render scenes/*.yaml -o pictures/ --size 320x240", "small pictures of many"},
                          {"monge render king.yaml -o 'draft-{name}.png' --shading diffuse --no-shadows",
@@ -95,11 +102,33 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
             .text = {"Reads each scene and reports everything that is wrong with it on standard "
                      "error, each with its line and column; then `SCENE: ok`, or how many errors "
                      "there are, on standard output.",
+                     "With --format json or sarif, standard output gets one document about all scenes "
+                     "instead. JSON: an array of objects with file, line, column, endLine, "
+                     "endColumn, severity (error, warning, failure), code, message, help, note and "
+                     "related, a list of objects with file, line, column and message; null is what "
+                     "there is not. SARIF 2.1.0: one run; failures, which have no place, are "
+                     "notifications of the tool. Lines and columns count from 1, columns in characters, "
+                     "an end is the first column behind.",
                      "The scene - is standard input."},
             .examples = {{"monge check --quiet scenes/*.yaml",
-                          "a step of a build: silent where all is well"}},
+                          "a step of a build: silent where all is well"},
+                         {"monge check --format sarif scenes/*.yaml > monge.sarif",
+                          "for what shows SARIF beside the code"}},
             .needs_operand = true,
             .run = check_command,
+        },
+    [COMMAND_EXPLAIN] =
+        {
+            .name = "explain",
+            .operands = "[CODE...]",
+            .doc = "explain the code of an error or a warning",
+            .text = {"Every message has a code in brackets, as in error[unknown-key]. Tells what it "
+                     "means, why it matters and how to mend it, with a wrong and a right example. "
+                     "Codes are stable, the words of messages are not.",
+                     "Without a code: all codes, each with what it means in a sentence."},
+            .examples = {{"monge explain unknown-key", "the story behind error[unknown-key]"},
+                         {"monge explain | grep camera", "the codes that have to do with the camera"}},
+            .run = explain_command,
         },
     [COMMAND_HELP] =
         {

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "cli/help.h"
+#include "monge.h"
 
 /* The words of a|b|c with spaces between. */
 static void print_choices(FILE *out, const char *choices) {
@@ -12,6 +13,10 @@ static void print_choices(FILE *out, const char *choices) {
 static void print_commands(FILE *out) {
     for (enum command_id c = COMMAND_NONE + 1; c < COMMANDS; c++)
         fprintf(out, "%s%s", c > 1 ? " " : "", COMMAND_TABLE[c].name);
+}
+
+static void print_codes(FILE *out) {
+    for (size_t i = 0; monge_code(i); i++) fprintf(out, "%s%s", i > 0 ? " " : "", monge_code(i));
 }
 
 static void print_options(FILE *out, enum command_id command) {
@@ -79,6 +84,11 @@ static void print_bash(FILE *out) {
           "        mapfile -t COMPREPLY < <(compgen -W '",
           out);
     print_commands(out);
+    fputs("' -- \"$word\")\n"
+          "    elif [[ ${COMP_WORDS[1]} == explain ]]; then\n"
+          "        mapfile -t COMPREPLY < <(compgen -W '",
+          out);
+    print_codes(out);
     fputs("' -- \"$word\")\n"
           "    else\n"
           "        mapfile -t COMPREPLY < <(compgen -d -- \"$word\"; compgen -f -X '!*.y*ml' -- \"$word\")\n"
@@ -156,8 +166,8 @@ static void print_zsh(FILE *out) {
             fputs("            '*:scene:_files -g \"*.y(a|)ml\"'\n        ;;\n", out);
             continue;
         }
-        fputs("            '1:command:(", out);
-        print_commands(out);
+        fputs(c == COMMAND_EXPLAIN ? "            '*:code:(" : "            '1:command:(", out);
+        (c == COMMAND_EXPLAIN ? print_codes : print_commands)(out);
         fputs(")'\n        ;;\n", out);
     }
     fputs("    esac\n"
@@ -197,6 +207,8 @@ static void print_fish(FILE *out) {
                 COMMAND_TABLE[c].doc);
     fputs("complete -c monge -n '__fish_seen_subcommand_from help' -f -a '", out);
     print_commands(out);
+    fputs("'\ncomplete -c monge -n '__fish_seen_subcommand_from explain' -f -a '", out);
+    print_codes(out);
     fputs("'\n", out);
     for (enum command_id c = COMMAND_NONE; c < COMMANDS; c++)
         for (enum option_id o = 0; o < OPTIONS; o++)
