@@ -26,7 +26,7 @@ static const struct node *read_file(const char *path) {
     const struct node_limits limits = {20, 100000};
     struct node_problem problem = {0};
     const struct source *source = file_read(&arena, &diag, path, 1 << 24);
-    const struct node *root = source ? node_parse(&arena, &diag, source, &limits, &problem) : NULL;
+    const struct node *root = source ? node_parse(&arena, &diag, source, &limits, NULL, &problem) : NULL;
     if (problem.text) diag_error(&diag, problem.at, "not-yaml", "%s", problem.text);
     if (!root) fail();
     return root;
