@@ -252,20 +252,20 @@ static bool check_oracle(const struct pair *s, ray r, double t_min, struct hit *
 static void the_same_as_brute_force(void **state) {
     (void)state;
     struct random r = random_begin();
+    int hits = 0;
     for (int round = 0; round < 20; round++) {
         static const double sizes[] = {1, 1e-4, 1e6};
         const double size = sizes[round % 3];
         struct pair *s = random_pair(&r, size);
-        int hits = 0;
         for (int i = 0; i < 400; i++) {
             const ray one = random_ray(&r, s, size);
             struct hit hit;
             double t_min = 0;
             for (int k = 0; k < 5 && check_oracle(s, one, t_min, &hit); k++, hits++) t_min = hit.crossing.t;
         }
-        assert_true(hits > 300);
         pair_end(s);
     }
+    assert_true(hits > 8000);
 }
 
 /* Every geometry placed twice at the same spot, within one that is, too: the first of all is seen. */
@@ -298,15 +298,16 @@ static void ties(void **state) {
 
 static void assert_same_surface(const struct surface *got, const struct surface *want, double size) {
     assert_vec3_near(got->normal, want->normal, 1e-7, "normal");
-    assert_vec3_near(got->point, want->point, 1e-9 * size, "point");
-    if (!(got->error > 0.0 && got->error < 1e-9 * size)) fail_msg("error %g", got->error);
+    const double far = size + vec3_max_abs(want->point);
+    assert_vec3_near(got->point, want->point, 1e-9 * far, "point");
+    if (!(got->error > 0.0 && got->error < 1e-9 * far)) fail_msg("error %g", got->error);
 }
 
 static void check_hit(const struct pair *s, ray r, const struct hit *hit, const struct hit *want, double size) {
     assert_true(occurrence_equal(&hit->which, &s->which[want->which.number[0]]));
     assert_int_equal(hit->material, want->material);
     assert_int_equal(hit->crossing.part, want->crossing.part);
-    assert_near(hit->crossing.t, want->crossing.t, 1e-7, "t");
+    assert_near(hit->crossing.t, want->crossing.t, 1e-9 * (100 + want->crossing.t), "t");
     const struct surface surface = accel_surface(s->accel, r, hit), flat = accel_surface(s->flat_accel, r, want);
     assert_same_surface(&surface, &flat, 100 * size);
 }
@@ -371,7 +372,10 @@ static void errors_hold(void **state) {
             if (!accel_nearest(s->accel, one, 0.0, INFINITY, &hit)) continue;
             const struct surface surface = accel_surface(s->accel, one, &hit);
             vec3 out = surface.normal;
-            if (vec3_dot(one.dir, out) > 0.0) out = vec3_neg(out); /* the back of a square */
+            if (vec3_dot(one.dir, out) > 0.0) {
+                if (shape_is_solid(hit.set, hit.ref)) continue; /* it began inside */
+                out = vec3_neg(out);
+            }
             vec3 dir = random_vec3(&r, -1, 1);
             const double up = vec3_dot(dir, out);
             dir = vec3_madd(dir, -up + (i % 2 ? fabs(up) : 1e-14), out); /* half of them along the surface */
@@ -414,8 +418,8 @@ static struct monge_film *render(const struct scene *scene, const struct accel *
     return film;
 }
 
-/* All settings of the two but the primitives are the same. */
-static void assert_same_picture(struct pair *s, size_t allowed) {
+/* All settings of the two but the primitives are the same. Returns how often the colour changes in a row. */
+static size_t assert_same_picture(struct pair *s, size_t allowed) {
     const struct monge_settings settings = s->instanced.settings;
     struct primitives own = s->flat.primitives;
     s->flat = s->instanced;
@@ -431,18 +435,20 @@ static void assert_same_picture(struct pair *s, size_t allowed) {
     monge_film_free(one);
     monge_film_free(two);
     if (different > allowed) fail_msg("%zu pixels differ", different);
-    assert_true(colors > 100);
+    return colors;
 }
 
 static void the_same_pictures(void **state) {
     (void)state;
     struct random r = random_begin();
+    size_t colors = 0;
     for (int round = 0; round < 6; round++) {
         struct pair *s = random_pair(&r, round == 5 ? 1e-5 : 1.0);
         if (round % 2) s->instanced.camera.projection = CAMERA_ORTHOGRAPHIC;
-        assert_same_picture(s, 6);
+        colors += assert_same_picture(s, 6);
         pair_end(s);
     }
+    assert_true(colors > 5000);
 }
 
 /* Balls of glass and water that overlap, in each other, and the camera in both; by instances of one ball. */
@@ -479,7 +485,7 @@ static void a_camera_in_glass(void **state) {
             assert_true(occurrence_equal(in.media.inside[i].which, &s->which[flat_in.media.inside[i].which->number[0]]));
             assert_true(in.media.inside[i].index == flat_in.media.inside[i].index);
         }
-        assert_same_picture(s, 6);
+        assert_true(assert_same_picture(s, 6) > 3000);
         pair_end(s);
     }
 }
