@@ -268,29 +268,25 @@ static void the_same_as_brute_force(void **state) {
     assert_true(hits > 8000);
 }
 
-/* Every geometry placed twice at the same spot, within one that is, too: the first of all is seen. */
+/* Every geometry placed many times at the same spot, within one that is, too: the first of all is seen,
+ * in whatever order the tree has them, and of clear and opaque ones, too. */
 static void ties(void **state) {
     (void)state;
     struct random r = random_begin();
     struct pair *s = pair_begin();
-    struct primitives *one = add_geometry(s, 9);
-    add_shapes(&r, one, 3, 1, false);
-    for (int level = 0; level < 3; level++) {
-        struct primitives *two = add_geometry(s, 9);
-        const affine map = random_map(&r, 1);
-        add_instance(two, (uint32_t)level, map, MATERIAL_INHERITED);
-        add_sphere(two, random_vec3(&r, -1, 1), 0.2, GLASS);
-        add_instance(two, (uint32_t)level, map, MATERIAL_INHERITED);
-    }
-    add_instance(&s->instanced.primitives, 3, AFFINE_IDENTITY, CLAY);
-    add_instance(&s->instanced.primitives, 3, AFFINE_IDENTITY, CLAY);
+    struct primitives *one = add_geometry(s, 9), *two = add_geometry(s, 20), *top = &s->instanced.primitives;
+    const affine map = random_map(&r, 1);
+    add_shapes(&r, one, 3, 1, true);
+    for (int i = 0; i < 11; i++) add_instance(two, 0, map, i == 0 ? GLASS : MATERIAL_INHERITED);
+    add_sphere(two, random_vec3(&r, -1, 1), 0.2, GLASS);
+    for (int i = 0; i < 11; i++) add_instance(top, 1, AFFINE_IDENTITY, i == 0 ? WATER : CLAY);
     pair_build(s);
     int hits = 0;
     for (int i = 0; i < 2000; i++) {
         struct hit hit;
         hits += check_oracle(s, random_ray(&r, s, 1.0), 0.0, &hit);
     }
-    assert_true(hits > 300);
+    assert_true(hits > 100);
     pair_end(s);
 }
 
@@ -326,7 +322,7 @@ static void the_same_as_flattened(void **state) {
             while (accel_nearest(s->flat_accel, one, t_min, INFINITY, &want)) {
                 assert_true(accel_nearest(s->accel, one, t_min, INFINITY, &hit));
                 check_hit(s, one, &hit, &want, size);
-                t_min = 0.5 * (hit.crossing.t + want.crossing.t) + 1e-7;
+                t_min = want.crossing.t + 1e-9 * (100 + want.crossing.t);
                 hits++;
             }
             t_min = 0.0;
@@ -334,7 +330,7 @@ static void the_same_as_flattened(void **state) {
                 assert_true(accel_nearest_clear(s->accel, one, t_min, 1.0, &hit));
                 check_hit(s, one, &hit, &want, size);
                 assert_true(clear[hit.material]);
-                t_min = 0.5 * (hit.crossing.t + want.crossing.t) + 1e-7;
+                t_min = want.crossing.t + 1e-9 * (100 + want.crossing.t);
                 clears++;
             }
             const bool any = accel_any(s->flat_accel, one, 0.0, 1.0);
@@ -359,15 +355,16 @@ static void errors_hold(void **state) {
         add_quadric(leaf, &forms[CYLINDER], random_map(&r, 5), CLAY);
         add_quadric(leaf, &forms[CUBE], random_map(&r, 5), CLAY);
         add_flat(leaf, FLAT_SQUARE, random_map(&r, 5), CLAY);
+        const double size = far[random_below(&r, 3)];
         add_instance(add_geometry(s, 9), 0, random_map(&r, far[random_below(&r, 3)]), CLAY);
-        add_instance(&s->instanced.primitives, 1, random_map(&r, far[random_below(&r, 3)]), CLAY);
+        add_instance(&s->instanced.primitives, 1, affine_compose(affine_scale(vec3_all(size)), random_map(&r, far[random_below(&r, 3)])), CLAY);
         pair_build(s);
         for (int i = 0; i < 2000; i++) {
             const struct primitives *flat = &s->flat.primitives;
             const primitive_ref ref = flat->info[random_below(&r, flat->count)].ref;
             const box3 box = shape_bounds(flat, ref);
-            const vec3 from = vec3_add(box3_center(box), random_vec3(&r, -20, 20));
-            const ray one = {from, vec3_sub(vec3_add(box3_center(box), random_vec3(&r, -0.3, 0.3)), from)};
+            const vec3 from = vec3_madd(box3_center(box), size, random_vec3(&r, -20, 20));
+            const ray one = {from, vec3_sub(vec3_madd(box3_center(box), size, random_vec3(&r, -0.3, 0.3)), from)};
             struct hit hit, again;
             if (!accel_nearest(s->accel, one, 0.0, INFINITY, &hit)) continue;
             const struct surface surface = accel_surface(s->accel, one, &hit);
@@ -458,7 +455,7 @@ static struct pair *glass_pair(bool orthographic) {
     struct primitives *two = add_geometry(s, 9), *top = &s->instanced.primitives;
     add_instance(two, 0, affine_scale(vec3_all(3)), WATER);
     add_instance(two, 0, affine_compose(affine_translate((vec3){0.3, 0, 0}), affine_scale((vec3){1, 1.4, -1})), MATERIAL_INHERITED);
-    add_instance(two, 0, affine_compose(affine_translate((vec3){0.9, 0.2, -0.4}), affine_scale((vec3){1, 0.6, 1})), MATERIAL_INHERITED);
+    add_instance(two, 0, affine_compose(affine_translate((vec3){0.9, 0.2, -0.4}), affine_scale((vec3){1, 0.6, 1})), WATER);
     add_instance(top, 1, AFFINE_IDENTITY, GLASS);
     add_instance(top, 1, affine_compose(affine_translate((vec3){-4, 0, -5}), affine_rotate((vec3){0, 1, 0}, 40)), GLASS);
     add_instance(top, 0, affine_translate((vec3){4, 0, -7}), CLAY);
@@ -479,7 +476,7 @@ static void a_camera_in_glass(void **state) {
         const ray r = {s->instanced.camera.eye, s->instanced.camera.direction};
         media_at(&s->instanced, s->accel, r, &in);
         media_at(&s->flat, s->flat_accel, r, &flat_in);
-        assert_int_equal(in.media.count, 3); /* the ball of water and two of glass */
+        assert_int_equal(in.media.count, 3); /* the large ball, of water, and both small ones */
         assert_int_equal(flat_in.media.count, 3);
         for (int i = 0; i < in.media.count; i++) {
             assert_true(occurrence_equal(in.media.inside[i].which, &s->which[flat_in.media.inside[i].which->number[0]]));
