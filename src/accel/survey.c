@@ -156,16 +156,20 @@ static void reach_set(struct reach *reach, const struct accel *accel, const stru
     reach_tree(reach, accel, accel->clear, m, limit);
 }
 
-double accel_support(const struct accel *accel, vec3 direction) {
-    const struct primitives *p = accel->primitives;
-    struct reach reach = {.most = -INFINITY, .left = REACH_BUDGET};
+static double shapes_support(const struct primitives *p, vec3 direction) {
+    double most = -INFINITY;
     for (uint32_t i = 0; i < p->count; i++) {
-        const double most = shape_support(p, p->info[i].ref, direction);
-        if (most > reach.most && most < INFINITY) reach.most = most;
+        const double one = shape_support(p, p->info[i].ref, direction);
+        if (one > most && one < INFINITY) most = one;
     }
-    if (!p->instance_count) return reach.most;
+    return most;
+}
+
+double accel_support(const struct accel *accel, vec3 direction) {
+    if (!accel->primitives->instance_count) return shapes_support(accel->primitives, direction);
     const struct measure to = {direction, 0.0}, fro = {vec3_neg(direction), 0.0};
     const box3 bounds = accel_bounds(accel);
+    struct reach reach = {.most = -INFINITY, .left = REACH_BUDGET};
     if (box3_is_bounded(bounds)) reach.slack = 1e-6 * (box_reach(&to, bounds) + box_reach(&fro, bounds));
     reach_set(&reach, accel, &to);
     return reach.most;
