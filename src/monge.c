@@ -1,13 +1,16 @@
 /* The library's face: ties the stations together. */
 #include "monge.h"
 
+#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
 
 #include "accel/accel.h"
 #include "image/png.h"
+#include "image/replace.h"
 #include "lang/file.h"
+#include "lang/import.h"
 #include "lang/lang.h"
 #include "render/render.h"
 #include "scene/scene.h"
@@ -135,6 +138,41 @@ bool monge_scene_prepare(struct monge_scene *scene) {
     else arena_release(&scene->arena, before);
     scene->arena.on_full = NULL;
     return scene->accel != NULL;
+}
+
+/* ---- Importing ---- */
+
+static bool write_text(const char *text, const char *path, struct diagnostics *diag) {
+    struct replacement file;
+    if (replace_begin(&file, path)) {
+        fputs(text, file.stream);
+        if (replace_commit(&file)) return true;
+    }
+    diag_failure(diag, "cannot-write", "cannot write %s: %s", strcmp(path, "-") == 0 ? "standard output" : path, strerror(errno));
+    return false;
+}
+
+static bool import_text(struct arena *arena, const char *path, const char *out_path, const struct monge_limits *limits,
+                        struct diagnostics *diag) {
+    const struct lang_limits lang_limits = {limits->nesting, limits->values};
+    const struct source *source = file_read(arena, diag, path, limits->file_bytes);
+    const char *text = source ? lang_import(arena, diag, source, &lang_limits) : NULL;
+    return text && write_text(text, out_path, diag);
+}
+
+bool monge_import(const char *path, const char *out_path, const struct monge_limits *given, struct monge_diagnostics *diag) {
+    const struct monge_limits limits = effective_limits(given);
+    jmp_buf full;
+    struct arena arena = {.limit = limits.memory_bytes, .on_full = &full};
+    bool done = false;
+    if (setjmp(full) == 0) {
+        done = import_text(&arena, path, out_path, &limits, &diag->list);
+    } else {
+        diag_failure(&diag->list, "limit-memory", "%s: takes more memory than there is, or than %zu bytes (the limit `memory_bytes`)",
+                     path, limits.memory_bytes);
+    }
+    arena_free(&arena);
+    return done;
 }
 
 /* ---- Settings ---- */

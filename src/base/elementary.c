@@ -22,3 +22,8 @@ double elementary_cos_deg(double angle_deg) { return sin_of_quarters(angle_deg, 
 double elementary_tan_deg(double angle_deg) {
     return elementary_sin_deg(angle_deg) / elementary_cos_deg(angle_deg);
 }
+
+double elementary_atan_deg(double tangent) {
+    const double degrees = 57.295779513082320877; /* 180 / pi */
+    return Sleef_cinz_atand1_u10purec(tangent) * degrees;
+}

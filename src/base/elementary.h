@@ -12,4 +12,7 @@ double elementary_sin_deg(double angle_deg);
 double elementary_cos_deg(double angle_deg);
 double elementary_tan_deg(double angle_deg);
 
+/* The angle -90 .. 90 degrees of a tangent, within 3 ulp. */
+double elementary_atan_deg(double tangent);
+
 #endif
