@@ -7,12 +7,13 @@
 /* A material of the book, its defaults filled in. */
 struct book_material {
     vec3 color;
-    const struct node *pattern; /* that the colour stands for, or NULL */
-    double ambient, diffuse, specular, shininess, reflective, transparency, index;
+    const struct node *pattern;      /* that the colour stands for, or NULL */
+    vec3 ambient, diffuse, specular; /* with the colour */
+    double shininess, reflective, transparency, index;
 };
 
 static const struct book_material plain_material = {
-    .color = {1, 1, 1}, .ambient = 0.1, .diffuse = 0.9, .specular = 0.9, .shininess = 200, .index = 1};
+    .color = {1, 1, 1}, .ambient = {0.1, 0.1, 0.1}, .diffuse = {0.9, 0.9, 0.9}, .specular = {0.9, 0.9, 0.9}, .shininess = 200, .index = 1};
 
 /* ---- Reading ---- */
 
@@ -23,7 +24,17 @@ static void read_part(struct importer *im, const struct layer *layers, const cha
     if (!at.node || !import_number(im, arena_format(im->arena, "`%s`", key), at, &value)) return;
     *out = fmin(fmax(value, min), max);
     if (*out == value) return;
-    diag_warning(im->diag, at.node->span, "import-range", "`%s`: must be %g to %g here: %g becomes %g", key, min, max, value, *out);
+    const char *range = isfinite(max) ? arena_format(im->arena, "%g to %g", min, max) : arena_format(im->arena, "%g or more", min);
+    diag_warning(im->diag, at.node->span, "import-range", "`%s`: must be %s here: %g becomes %g", key, range, value, *out);
+}
+
+/* A part of the light, times the colour: 0 to 1 in each channel. */
+static vec3 read_light(struct importer *im, const struct layer *layers, const char *key, double part, vec3 color) {
+    read_part(im, layers, key, 0.0, INFINITY, &part);
+    const vec3 light = tidy_vec3(vec3_scale(color, part));
+    if (vec3_max_abs(light) > 1.0)
+        diag_warning(im->diag, layers->mapping->span, "import-range", "`%s` gives back more light than there is: what is over 1 becomes 1", key);
+    return (vec3){fmin(light.x, 1.0), fmin(light.y, 1.0), fmin(light.z, 1.0)};
 }
 
 static bool mean_color(struct importer *im, struct place_in_book pattern, vec3 *out);
@@ -92,9 +103,9 @@ static struct book_material read_material(struct importer *im, const struct laye
     import_check_keys(im, layers, "a material", keys, IMPORT_NO_WORDS);
     if (color.node) import_color(im, "`color`", color, &m.color);
     if (pattern.node && !node_is_null(pattern.node)) read_pattern(im, pattern, &m);
-    read_part(im, layers, "ambient", 0.0, INFINITY, &m.ambient);
-    read_part(im, layers, "diffuse", 0.0, INFINITY, &m.diffuse);
-    read_part(im, layers, "specular", 0.0, INFINITY, &m.specular);
+    m.ambient = read_light(im, layers, "ambient", plain_material.ambient.x, m.color);
+    m.diffuse = read_light(im, layers, "diffuse", plain_material.diffuse.x, m.color);
+    m.specular = read_light(im, layers, "specular", plain_material.specular.x, vec3_all(1.0));
     read_part(im, layers, "shininess", 0.0, 1e6, &m.shininess);
     read_part(im, layers, "reflective", 0.0, 1.0, &m.reflective);
     read_part(im, layers, "transparency", 0.0, 1.0, &m.transparency);
@@ -109,10 +120,10 @@ static void write_material(struct importer *im, struct text *text, int indent, c
     struct arena *arena = im->arena;
     struct block block = {.count = 0};
     const bool glass = m->transparency > 0.0 && m->reflective > 0.0;
-    block_add(&block, arena, "ambient", vec3_text(arena, tidy_vec3(vec3_scale(m->color, m->ambient))));
-    block_add(&block, arena, "diffuse", vec3_text(arena, tidy_vec3(vec3_scale(m->color, m->diffuse))));
-    if (m->specular > 0.0) {
-        block_add(&block, arena, "specular", vec3_text(arena, vec3_all(m->specular)));
+    block_add(&block, arena, "ambient", vec3_text(arena, m->ambient));
+    block_add(&block, arena, "diffuse", vec3_text(arena, m->diffuse));
+    if (vec3_max_abs(m->specular) > 0.0) {
+        block_add(&block, arena, "specular", vec3_text(arena, m->specular));
         block_add(&block, arena, "shininess", number_text(arena, m->shininess));
     }
     if (m->reflective > 0.0) block_add(&block, arena, "reflection", number_text(arena, tidy(m->reflective)));

@@ -29,8 +29,8 @@ static bool is_endless(const struct extent *e) { return e->min == -INFINITY && e
 /* Gives what is endless to one side an end there. */
 static void end_somewhere(struct importer *im, struct text *text, int indent, const struct layer *layers, struct extent *e) {
     if (isfinite(e->min) && isfinite(e->max)) return;
-    if (e->max == INFINITY) e->max = fmax(far_away, e->min + far_away);
-    else e->min = fmin(-far_away, e->max - far_away);
+    if (e->max == INFINITY) e->max = fmax(far_away, 2.0 * e->min);
+    else e->min = fmin(-far_away, 2.0 * e->max);
     const double end = fabs(e->max) > fabs(e->min) ? e->max : e->min;
     diag_warning(im->diag, layers->mapping->span, "import-endless", "endless to one side: here it ends at y = %g", end);
     text_add(text, "%*s# Endless in the book; here it ends at y = %s.\n", indent, "", number_text(im->arena, end));

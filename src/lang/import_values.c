@@ -195,11 +195,18 @@ static bool wrong_value(struct importer *im, const char *what, const struct node
     return false;
 }
 
+/* What scene/ can turn into transforms, and their products too. */
+static const double least = 1e-30, most = 1e30;
+
 bool import_number(struct importer *im, const char *what, struct place_in_book at, double *out) {
     const struct place_in_book value = import_named(im, at);
     const struct node *n = node_resolve(value.node);
-    if (n->kind == NODE_SCALAR && parse_decimal(im, n->text, out)) return true;
-    return wrong_value(im, what, at.node, "a number");
+    double number;
+    if (n->kind != NODE_SCALAR || !parse_decimal(im, n->text, &number)) return wrong_value(im, what, at.node, "a number");
+    const double size = fabs(number);
+    if (number != 0.0 && !(size >= least && size <= most)) return wrong_value(im, what, at.node, "0, or a number of size 1e-30 to 1e30");
+    *out = number;
+    return true;
 }
 
 bool import_extent(struct importer *im, const char *what, struct place_in_book at, double *out) {
