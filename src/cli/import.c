@@ -9,13 +9,14 @@
 
 static bool same_file(const char *a, const char *b) {
     struct stat of_a, of_b;
-    return stat(a, &of_a) == 0 && stat(b, &of_b) == 0 && S_ISREG(of_a.st_mode) && of_a.st_dev == of_b.st_dev &&
-           of_a.st_ino == of_b.st_ino;
+    return stat(a, &of_a) == 0 && stat(b, &of_b) == 0 && S_ISREG(of_a.st_mode) &&
+           of_a.st_dev == of_b.st_dev && of_a.st_ino == of_b.st_ino;
 }
 
 enum status import_command(const struct arguments *args) {
     const char *path = args->operands[0];
-    const char *out = args->option[OPTION_IMPORT_OUTPUT].given ? args->option[OPTION_IMPORT_OUTPUT].text : "-";
+    const char *out =
+        args->option[OPTION_IMPORT_OUTPUT].given ? args->option[OPTION_IMPORT_OUTPUT].text : "-";
     if (args->count > 1) {
         say_usage(COMMAND_IMPORT, "import: expected one file, found `%s` as well", args->operands[1]);
         return STATUS_TROUBLE;

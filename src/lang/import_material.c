@@ -12,28 +12,37 @@ struct book_material {
     double shininess, reflective, transparency, index;
 };
 
-static const struct book_material plain_material = {
-    .color = {1, 1, 1}, .ambient = {0.1, 0.1, 0.1}, .diffuse = {0.9, 0.9, 0.9}, .specular = {0.9, 0.9, 0.9}, .shininess = 200, .index = 1};
+static const struct book_material plain_material = {.color = {1, 1, 1},
+                                                    .ambient = {0.1, 0.1, 0.1},
+                                                    .diffuse = {0.9, 0.9, 0.9},
+                                                    .specular = {0.9, 0.9, 0.9},
+                                                    .shininess = 200,
+                                                    .index = 1};
 
 /* ---- Reading ---- */
 
 /* A number that is moved into the range where it must be. */
-static void read_part(struct importer *im, const struct layer *layers, const char *key, double min, double max, double *out) {
+static void read_part(struct importer *im, const struct layer *layers, const char *key, double min,
+                      double max, double *out) {
     const struct place_in_book at = layer_find(layers, key);
     double value;
     if (!at.node || !import_number(im, arena_format(im->arena, "`%s`", key), at, &value)) return;
     *out = fmin(fmax(value, min), max);
     if (*out == value) return;
-    const char *range = isfinite(max) ? arena_format(im->arena, "%g to %g", min, max) : arena_format(im->arena, "%g or more", min);
-    diag_warning(im->diag, at.node->span, "import-range", "`%s`: must be %s here: %g becomes %g", key, range, value, *out);
+    const char *range = isfinite(max) ? arena_format(im->arena, "%g to %g", min, max)
+                                      : arena_format(im->arena, "%g or more", min);
+    diag_warning(im->diag, at.node->span, "import-range", "`%s`: must be %s here: %g becomes %g", key, range,
+                 value, *out);
 }
 
 /* A part of the light, times the colour: 0 to 1 in each channel. */
-static vec3 read_light(struct importer *im, const struct layer *layers, const char *key, double part, vec3 color) {
+static vec3 read_light(struct importer *im, const struct layer *layers, const char *key, double part,
+                       vec3 color) {
     read_part(im, layers, key, 0.0, INFINITY, &part);
     const vec3 light = tidy_vec3(vec3_scale(color, part));
     if (vec3_max_abs(light) > 1.0)
-        diag_warning(im->diag, layers->mapping->span, "import-range", "`%s` gives back more light than there is: what is over 1 becomes 1", key);
+        diag_warning(im->diag, layers->mapping->span, "import-range",
+                     "`%s` gives back more light than there is: what is over 1 becomes 1", key);
     return (vec3){fmin(light.x, 1.0), fmin(light.y, 1.0), fmin(light.z, 1.0)};
 }
 
@@ -41,7 +50,8 @@ static bool mean_color(struct importer *im, struct place_in_book pattern, vec3 *
 
 /* A colour, or a pattern in its turn. */
 static bool read_color(struct importer *im, struct place_in_book at, vec3 *out) {
-    if (node_resolve(import_named(im, at).node)->kind != NODE_MAPPING) return import_color(im, "`colors`", at, out);
+    if (node_resolve(import_named(im, at).node)->kind != NODE_MAPPING)
+        return import_color(im, "`colors`", at, out);
     if (!import_enter(im, at.node)) return false;
     const bool read = mean_color(im, at, out);
     import_leave(im);
@@ -51,10 +61,12 @@ static bool read_color(struct importer *im, struct place_in_book at, vec3 *out) 
 /* The mean of the pattern's colours. False: it has none. */
 static bool mean_color(struct importer *im, struct place_in_book pattern, vec3 *out) {
     const struct place_in_book at = import_named(im, pattern);
-    const struct node *n = node_resolve(at.node), *colors = n->kind == NODE_MAPPING ? mapping_find(n, "colors") : NULL;
+    const struct node *n = node_resolve(at.node),
+                      *colors = n->kind == NODE_MAPPING ? mapping_find(n, "colors") : NULL;
     const struct place_in_book named = {colors, at.knows};
     const struct place_in_book list = colors ? import_named(im, named) : named;
-    if (!colors || node_resolve(list.node)->kind != NODE_SEQUENCE || node_resolve(list.node)->count == 0) return false;
+    if (!colors || node_resolve(list.node)->kind != NODE_SEQUENCE || node_resolve(list.node)->count == 0)
+        return false;
     vec3 sum = {0, 0, 0}, color;
     for (const struct node *item = node_resolve(list.node)->first; item; item = item->next) {
         if (!read_color(im, (struct place_in_book){item, list.knows}, &color)) return false;
@@ -68,9 +80,11 @@ static void read_pattern(struct importer *im, struct place_in_book at, struct bo
     const struct place_in_book pattern = import_named(im, at);
     m->pattern = pattern.node;
     if (mean_color(im, pattern, &m->color))
-        diag_warning(im->diag, at.node->span, "import-pattern", "patterns are not there yet: the mean of its colours stands for it");
+        diag_warning(im->diag, at.node->span, "import-pattern",
+                     "patterns are not there yet: the mean of its colours stands for it");
     else
-        diag_warning(im->diag, at.node->span, "import-pattern", "patterns are not there yet, and this one has no list of colours: left out");
+        diag_warning(im->diag, at.node->span, "import-pattern",
+                     "patterns are not there yet, and this one has no list of colours: left out");
 }
 
 /* The mean of Schlick's reflectance over a ball as one sees it: that over all angles of incidence,
@@ -83,7 +97,8 @@ static double mean_reflectance(double index) {
 static void read_transparency(struct importer *im, const struct layer *layers, struct book_material *m) {
     const struct place_in_book at = layer_find(layers, "transparency");
     if (m->transparency > 0.0 && !im->shadow_told) {
-        diag_warning(im->diag, at.node->span, "import-shadow", "light passes what is transparent here: its shadow is lighter than in the book");
+        diag_warning(im->diag, at.node->span, "import-shadow",
+                     "light passes what is transparent here: its shadow is lighter than in the book");
         im->shadow_told = true;
     }
     if (!(m->transparency > 0.0 && m->reflective > 0.0)) return;
@@ -91,13 +106,16 @@ static void read_transparency(struct importer *im, const struct layer *layers, s
     m->reflective *= reflectance;
     m->transparency *= 1.0 - reflectance;
     diag_warning(im->diag, at.node->span, "import-fresnel",
-                 "the book shares light between `reflective` and `transparency` by the angle; here by the mean of that, "
-                 "%.3g to %.3g", reflectance, 1.0 - reflectance);
+                 "the book shares light between `reflective` and `transparency` by the angle; here by the "
+                 "mean of that, "
+                 "%.3g to %.3g",
+                 reflectance, 1.0 - reflectance);
 }
 
 static struct book_material read_material(struct importer *im, const struct layer *layers) {
-    static const char *const keys[] = {"color",      "pattern",      "ambient",          "diffuse", "specular", "shininess",
-                                       "reflective", "transparency", "refractive-index", "extend",  NULL};
+    static const char *const keys[] = {
+        "color",      "pattern",      "ambient",          "diffuse", "specular", "shininess",
+        "reflective", "transparency", "refractive-index", "extend",  NULL};
     struct book_material m = plain_material;
     const struct place_in_book color = layer_find(layers, "color"), pattern = layer_find(layers, "pattern");
     import_check_keys(im, layers, "a material", keys, IMPORT_NO_WORDS);
@@ -116,7 +134,8 @@ static struct book_material read_material(struct importer *im, const struct laye
 
 /* ---- Writing ---- */
 
-static void write_material(struct importer *im, struct text *text, int indent, const char *head, const struct book_material *m) {
+static void write_material(struct importer *im, struct text *text, int indent, const char *head,
+                           const struct book_material *m) {
     struct arena *arena = im->arena;
     struct block block = {.count = 0};
     const bool glass = m->transparency > 0.0 && m->reflective > 0.0;
@@ -127,10 +146,14 @@ static void write_material(struct importer *im, struct text *text, int indent, c
         block_add(&block, arena, "shininess", number_text(arena, m->shininess));
     }
     if (m->reflective > 0.0) block_add(&block, arena, "reflection", number_text(arena, tidy(m->reflective)));
-    if (m->transparency > 0.0) block_add(&block, arena, "refraction", number_text(arena, tidy(m->transparency)));
+    if (m->transparency > 0.0)
+        block_add(&block, arena, "refraction", number_text(arena, tidy(m->transparency)));
     if (m->transparency > 0.0) block_add(&block, arena, "index", number_text(arena, m->index));
-    if (m->pattern) text_add(text, "%*s# In place of the pattern %s\n", indent, "", node_text(arena, m->pattern));
-    if (glass) text_add(text, "%*s# reflection and refraction share the light by their mean over all angles.\n", indent, "");
+    if (m->pattern)
+        text_add(text, "%*s# In place of the pattern %s\n", indent, "", node_text(arena, m->pattern));
+    if (glass)
+        text_add(text, "%*s# reflection and refraction share the light by their mean over all angles.\n",
+                 indent, "");
     text_block(text, indent, head, &block);
 }
 
@@ -143,7 +166,8 @@ static const char *new_name(struct importer *im, const char *wanted) {
     for (char *c = name; *c; c++)
         if (!isalnum((unsigned char)*c) && *c != '-' && *c != '_') *c = '_';
     const char *unique = name;
-    for (int i = 2; table_find(&im->material_names, unique); i++) unique = arena_format(im->arena, "%s-%d", name, i);
+    for (int i = 2; table_find(&im->material_names, unique); i++)
+        unique = arena_format(im->arena, "%s-%d", name, i);
     table_put(im->arena, &im->material_names, unique, (void *)unique);
     return unique;
 }
@@ -185,7 +209,8 @@ void import_material(struct importer *im, struct text *text, int indent, struct 
         return;
     }
     if (n->kind != NODE_SCALAR)
-        diag_error(im->diag, at.node->span, "import-value", "`material`: expected a mapping or a name, found %s", found_in_book(im, n));
+        diag_error(im->diag, at.node->span, "import-value",
+                   "`material`: expected a mapping or a name, found %s", found_in_book(im, n));
     const char *name = n->kind == NODE_SCALAR ? defined_name(im, at) : NULL;
     if (name) text_add(text, "%*smaterial: %s\n", indent, "", name);
 }

@@ -5,10 +5,11 @@
 enum kind { KIND_CAMERA, KIND_LIGHT, KIND_SHAPE, KIND_GROUP, KIND_MESH, KIND_SOLID, KIND_NONE };
 
 /* Each with its kind. */
-static const char *const kind_names[] = {"camera", "light",    "sphere",          "plane", "cube", "cylinder", "cone",
-                                         "group",  "triangle", "smooth-triangle", "obj",   "csg",  NULL};
-static const enum kind kinds[] = {KIND_CAMERA, KIND_LIGHT, KIND_SHAPE, KIND_SHAPE, KIND_SHAPE, KIND_SHAPE, KIND_SHAPE,
-                                  KIND_GROUP,  KIND_MESH,  KIND_MESH,  KIND_MESH,  KIND_SOLID};
+static const char *const kind_names[] = {"camera",   "light", "sphere", "plane",    "cube",
+                                         "cylinder", "cone",  "group",  "triangle", "smooth-triangle",
+                                         "obj",      "csg",   NULL};
+static const enum kind kinds[] = {KIND_CAMERA, KIND_LIGHT, KIND_SHAPE, KIND_SHAPE, KIND_SHAPE, KIND_SHAPE,
+                                  KIND_SHAPE,  KIND_GROUP, KIND_MESH,  KIND_MESH,  KIND_MESH,  KIND_SOLID};
 
 enum { TOP_INDENT = 2 }; /* of what is in no group */
 
@@ -36,7 +37,8 @@ static bool resolve(struct importer *im, struct place_in_book item, struct addit
         const struct place_in_book add = layer_find(part, "add");
         const struct node *name = add.node ? node_resolve(add.node) : NULL;
         if (!name || name->kind != NODE_SCALAR) {
-            diag_error(im->diag, part->mapping->span, "import-missing", "an object needs `add`, the name of what it is");
+            diag_error(im->diag, part->mapping->span, "import-missing",
+                       "an object needs `add`, the name of what it is");
             return false;
         }
         out->name = name->text;
@@ -47,7 +49,8 @@ static bool resolve(struct importer *im, struct place_in_book item, struct addit
             import_unknown_name(im, add.node, "`add`", kind_names);
             return false;
         }
-        part = import_layers(im, (struct place_in_book){definition->value, definition->number - 1}, definition->extend);
+        part = import_layers(im, (struct place_in_book){definition->value, definition->number - 1},
+                             definition->extend);
     }
 }
 
@@ -67,7 +70,8 @@ static void write_transform(struct importer *im, struct text *text, int indent, 
     add_transforms(im, &steps, layers);
     const struct place_in_book at = layer_find(layers, "transform");
     if (at.node && !affine_invert(steps.map, &inverse))
-        diag_error(im->diag, at.node->span, "import-flat", "this transform leaves nothing to see: it flattens the object");
+        diag_error(im->diag, at.node->span, "import-flat",
+                   "this transform leaves nothing to see: it flattens the object");
     steps_write(text, indent, &steps);
 }
 
@@ -75,57 +79,71 @@ static void check_shadow(struct importer *im, const struct layer *layers) {
     const struct place_in_book at = layer_find(layers, "shadow");
     bool shadow = true;
     if (at.node && import_boolean(im, "`shadow`", at, &shadow) && !shadow)
-        diag_warning(im->diag, at.node->span, "import-shadow", "everything has a shadow here: `shadow: false` is left out");
+        diag_warning(im->diag, at.node->span, "import-shadow",
+                     "everything has a shadow here: `shadow: false` is left out");
 }
 
 /* What was written of an object: BARE if something in it has no material, and gets the book's own. */
 enum presence { ABSENT, COVERED, BARE };
 
-static enum presence import_object(struct importer *im, struct text *text, int indent, struct place_in_book item);
+static enum presence import_object(struct importer *im, struct text *text, int indent,
+                                   struct place_in_book item);
 
-static enum presence import_group(struct importer *im, struct text *text, int indent, const struct layer *layers) {
+static enum presence import_group(struct importer *im, struct text *text, int indent,
+                                  const struct layer *layers) {
     static const char *const keys[] = {"add", "extend", "material", "transform", "shadow", "children", NULL};
     const struct place_in_book children = layer_find(layers, "children");
     const struct node *list = children.node ? node_resolve(children.node) : NULL;
     import_check_keys(im, layers, "a group", keys, IMPORT_NO_WORDS);
     if (!list || list->kind != NODE_SEQUENCE) {
-        if (list) diag_error(im->diag, children.node->span, "import-value", "`children`: expected a list, found %s", found_in_book(im, list));
-        else diag_warning(im->diag, layers->mapping->span, "import-empty", "a group without `children`: left out");
+        if (list)
+            diag_error(im->diag, children.node->span, "import-value", "`children`: expected a list, found %s",
+                       found_in_book(im, list));
+        else
+            diag_warning(im->diag, layers->mapping->span, "import-empty",
+                         "a group without `children`: left out");
         return ABSENT;
     }
     text_add(text, "%*s- group:\n", indent, "");
     enum presence all = ABSENT;
     for (const struct node *item = list->first; item; item = item->next) {
-        const enum presence one = import_object(im, text, indent + 4, (struct place_in_book){item, children.knows});
+        const enum presence one =
+            import_object(im, text, indent + 4, (struct place_in_book){item, children.knows});
         if (one > all) all = one;
     }
     return all;
 }
 
 /* An object without a material has that of the nearest group around it that has one. */
-static enum presence import_added(struct importer *im, struct text *text, int indent, const struct addition *added) {
+static enum presence import_added(struct importer *im, struct text *text, int indent,
+                                  const struct addition *added) {
     const struct place_in_book material = layer_find(added->layers, "material");
     const bool own = material.node && !node_is_null(node_resolve(material.node)), top = indent == TOP_INDENT;
     const size_t before = text->size;
     enum presence presence = added->kind == KIND_GROUP ? import_group(im, text, indent, added->layers)
-                             : import_shape(im, text, indent, added->name, added->layers) ? BARE : ABSENT;
+                             : import_shape(im, text, indent, added->name, added->layers) ? BARE
+                                                                                          : ABSENT;
     if (presence == ABSENT) {
         text_cut(text, before);
         return ABSENT;
     }
     check_shadow(im, added->layers);
-    if (own) import_material(im, text, indent + 2, material);
-    else if (top && presence == BARE) import_plain_material(im, text, indent + 2);
+    if (own)
+        import_material(im, text, indent + 2, material);
+    else if (top && presence == BARE)
+        import_plain_material(im, text, indent + 2);
     write_transform(im, text, indent + 2, added->layers);
     return own ? COVERED : presence;
 }
 
 static void leave_out(struct importer *im, const struct addition *added) {
     const char *what = added->kind == KIND_MESH ? "meshes" : "solids by union, intersection and difference";
-    diag_warning(im->diag, added->layers->mapping->span, "import-left-out", "%s are not there yet: this `%s` is left out", what, added->name);
+    diag_warning(im->diag, added->layers->mapping->span, "import-left-out",
+                 "%s are not there yet: this `%s` is left out", what, added->name);
 }
 
-static enum presence import_resolved(struct importer *im, struct text *text, int indent, const struct addition *added) {
+static enum presence import_resolved(struct importer *im, struct text *text, int indent,
+                                     const struct addition *added) {
     const bool top = indent == TOP_INDENT;
     switch (added->kind) {
     case KIND_SHAPE:
@@ -141,16 +159,21 @@ static enum presence import_resolved(struct importer *im, struct text *text, int
     case KIND_NONE: break;
     }
     if (!top && (added->kind == KIND_CAMERA || added->kind == KIND_LIGHT))
-        diag_error(im->diag, added->layers->mapping->span, "import-value", "a %s is no member of a group", added->name);
+        diag_error(im->diag, added->layers->mapping->span, "import-value", "a %s is no member of a group",
+                   added->name);
     return ABSENT;
 }
 
-static enum presence import_object(struct importer *im, struct text *text, int indent, struct place_in_book item) {
+static enum presence import_object(struct importer *im, struct text *text, int indent,
+                                   struct place_in_book item) {
     struct addition added;
     if (!import_enter(im, item.node)) return ABSENT;
-    const enum presence presence = resolve(im, item, &added) ? import_resolved(im, text, indent, &added) : ABSENT;
+    const enum presence presence =
+        resolve(im, item, &added) ? import_resolved(im, text, indent, &added) : ABSENT;
     import_leave(im);
     return presence;
 }
 
-void import_add(struct importer *im, struct place_in_book item) { import_object(im, &im->objects, TOP_INDENT, item); }
+void import_add(struct importer *im, struct place_in_book item) {
+    import_object(im, &im->objects, TOP_INDENT, item);
+}

@@ -20,24 +20,31 @@ static bool read_extent(struct importer *im, const struct layer *layers, struct 
     const bool caps = !closed.node || import_boolean(im, "`closed`", closed, &e->closed);
     if (!low || !high || !caps) return false;
     if (e->min < e->max) return true;
-    diag_warning(im->diag, layers->mapping->span, "import-empty", "nothing is between `min` and `max`: left out");
+    diag_warning(im->diag, layers->mapping->span, "import-empty",
+                 "nothing is between `min` and `max`: left out");
     return false;
 }
 
 static bool is_endless(const struct extent *e) { return e->min == -INFINITY && e->max == INFINITY; }
 
 /* Gives what is endless to one side an end there. */
-static void end_somewhere(struct importer *im, struct text *text, int indent, const struct layer *layers, struct extent *e) {
+static void end_somewhere(struct importer *im, struct text *text, int indent, const struct layer *layers,
+                          struct extent *e) {
     if (isfinite(e->min) && isfinite(e->max)) return;
-    if (e->max == INFINITY) e->max = fmax(far_away, 2.0 * e->min);
-    else e->min = fmin(-far_away, 2.0 * e->max);
+    if (e->max == INFINITY)
+        e->max = fmax(far_away, 2.0 * e->min);
+    else
+        e->min = fmin(-far_away, 2.0 * e->max);
     const double end = fabs(e->max) > fabs(e->min) ? e->max : e->min;
-    diag_warning(im->diag, layers->mapping->span, "import-endless", "endless to one side: here it ends at y = %g", end);
-    text_add(text, "%*s# Endless in the book; here it ends at y = %s.\n", indent, "", number_text(im->arena, end));
+    diag_warning(im->diag, layers->mapping->span, "import-endless",
+                 "endless to one side: here it ends at y = %g", end);
+    text_add(text, "%*s# Endless in the book; here it ends at y = %s.\n", indent, "",
+             number_text(im->arena, end));
 }
 
 static const char *between(struct importer *im, double from, double to) {
-    return arena_format(im->arena, "from: [0, %s, 0], to: [0, %s, 0]", number_text(im->arena, from), number_text(im->arena, to));
+    return arena_format(im->arena, "from: [0, %s, 0], to: [0, %s, 0]", number_text(im->arena, from),
+                        number_text(im->arena, to));
 }
 
 static const char *open_key(bool open) { return open ? ", open: true" : ""; }
@@ -56,7 +63,8 @@ static bool import_cylinder(struct importer *im, struct text *text, int indent, 
 
 /* One half of the double cone, with its apex at the origin. */
 static void write_half(struct importer *im, struct text *text, int indent, double base, bool open) {
-    const char *radius = fabs(base) == 1.0 ? "" : arena_format(im->arena, ", radius: %s", number_text(im->arena, fabs(base)));
+    const char *radius =
+        fabs(base) == 1.0 ? "" : arena_format(im->arena, ", radius: %s", number_text(im->arena, fabs(base)));
     text_add(text, "%*s- cone: {%s%s%s}\n", indent, "", between(im, base, 0.0), radius, open_key(open));
 }
 
@@ -64,7 +72,8 @@ static void write_half(struct importer *im, struct text *text, int indent, doubl
 static void write_frustum(struct importer *im, struct text *text, int indent, const struct extent *e) {
     const double radius = fmax(fabs(e->min), fabs(e->max));
     text_add(text, "%*s- quadric: {xx: 1, yy: -1, zz: 1%s}\n", indent, "", open_key(!e->closed));
-    text_add(text, "%*sbounds: {min: %s, ", indent + 2, "", vec3_text(im->arena, (vec3){-radius, e->min, -radius}));
+    text_add(text, "%*sbounds: {min: %s, ", indent + 2, "",
+             vec3_text(im->arena, (vec3){-radius, e->min, -radius}));
     text_add(text, "max: %s}\n", vec3_text(im->arena, (vec3){radius, e->max, radius}));
 }
 
@@ -88,11 +97,13 @@ static bool import_cone(struct importer *im, struct text *text, int indent, cons
     return true;
 }
 
-bool import_shape(struct importer *im, struct text *text, int indent, const char *kind, const struct layer *layers) {
+bool import_shape(struct importer *im, struct text *text, int indent, const char *kind,
+                  const struct layer *layers) {
     static const char *const keys[] = {"add", "extend", "material", "transform", "shadow", NULL};
     static const char *const long_keys[] = {"min", "max", "closed", NULL};
     const bool cylinder = strcmp(kind, "cylinder") == 0, cone = strcmp(kind, "cone") == 0;
-    import_check_keys(im, layers, arena_format(im->arena, "a %s", kind), keys, cylinder || cone ? long_keys : IMPORT_NO_WORDS);
+    import_check_keys(im, layers, arena_format(im->arena, "a %s", kind), keys,
+                      cylinder || cone ? long_keys : IMPORT_NO_WORDS);
     if (cylinder) return import_cylinder(im, text, indent, layers);
     if (cone) return import_cone(im, text, indent, layers);
     const char *shape = strcmp(kind, "cube") == 0    ? "box: {min: [-1, -1, -1], max: [1, 1, 1]}"

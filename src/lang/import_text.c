@@ -70,14 +70,17 @@ const char *number_text(struct arena *arena, double value) {
     const double plain = value + 0.0; /* no -0 */
     const int digits = digits_of(plain), exponent = exponent_of(plain, digits);
     const int decimals = digits - 1 - exponent;
-    if (exponent >= -6 && exponent < 16) snprintf(text, sizeof text, "%.*f", decimals > 0 ? decimals : 0, plain);
-    else snprintf(text, sizeof text, "%.*e", digits - 1, plain);
+    if (exponent >= -6 && exponent < 16)
+        snprintf(text, sizeof text, "%.*f", decimals > 0 ? decimals : 0, plain);
+    else
+        snprintf(text, sizeof text, "%.*e", digits - 1, plain);
     mend_point(text);
     return arena_text(arena, text, strlen(text));
 }
 
 const char *vec3_text(struct arena *arena, vec3 v) {
-    return arena_format(arena, "[%s, %s, %s]", number_text(arena, v.x), number_text(arena, v.y), number_text(arena, v.z));
+    return arena_format(arena, "[%s, %s, %s]", number_text(arena, v.x), number_text(arena, v.y),
+                        number_text(arena, v.z));
 }
 
 double tidy(double computed) {
@@ -137,8 +140,10 @@ void text_block(struct text *text, int indent, const char *head, const struct bl
     const bool flow = fits(indent, head, block->entries, count, 2);
     text_add(text, "%*s%s:%s", indent, "", head, flow ? " {" : "\n");
     for (size_t i = 0; i < count; i++) {
-        if (flow) text_add(text, "%s%s", i ? ", " : "", block->entries[i]);
-        else text_add(text, "%*s%s\n", indent + 2, "", block->entries[i]);
+        if (flow)
+            text_add(text, "%s%s", i ? ", " : "", block->entries[i]);
+        else
+            text_add(text, "%*s%s\n", indent + 2, "", block->entries[i]);
     }
     if (flow) text_add(text, "}\n");
 }
@@ -147,8 +152,10 @@ void text_list(struct text *text, int indent, const char *head, const char *cons
     const bool flow = fits(indent, head, entries, count, 4);
     text_add(text, "%*s%s:%s", indent, "", head, flow ? " [" : "\n");
     for (size_t i = 0; i < count; i++) {
-        if (flow) text_add(text, "%s{%s}", i ? ", " : "", entries[i]);
-        else text_add(text, "%*s- %s\n", indent + 2, "", entries[i]);
+        if (flow)
+            text_add(text, "%s{%s}", i ? ", " : "", entries[i]);
+        else
+            text_add(text, "%*s- %s\n", indent + 2, "", entries[i]);
     }
     if (flow) text_add(text, "]\n");
 }

@@ -14,7 +14,8 @@ struct step {
 
 static struct step translate(struct arena *arena, const double *n) {
     const char *by = vec3_text(arena, (vec3){n[0], n[1], -n[2]});
-    return (struct step){arena_format(arena, "translate: %s", by), affine_translate((vec3){n[0], n[1], n[2]})};
+    return (struct step){arena_format(arena, "translate: %s", by),
+                         affine_translate((vec3){n[0], n[1], n[2]})};
 }
 
 static struct step scale(struct arena *arena, const double *n) {
@@ -29,9 +30,15 @@ static struct step rotate(struct arena *arena, const char *name, vec3 axis, doub
                          affine_rotate(axis, degrees)};
 }
 
-static struct step rotate_x(struct arena *arena, const double *n) { return rotate(arena, "x", (vec3){1, 0, 0}, -1.0, n[0]); }
-static struct step rotate_y(struct arena *arena, const double *n) { return rotate(arena, "y", (vec3){0, 1, 0}, -1.0, n[0]); }
-static struct step rotate_z(struct arena *arena, const double *n) { return rotate(arena, "z", (vec3){0, 0, 1}, 1.0, n[0]); }
+static struct step rotate_x(struct arena *arena, const double *n) {
+    return rotate(arena, "x", (vec3){1, 0, 0}, -1.0, n[0]);
+}
+static struct step rotate_y(struct arena *arena, const double *n) {
+    return rotate(arena, "y", (vec3){0, 1, 0}, -1.0, n[0]);
+}
+static struct step rotate_z(struct arena *arena, const double *n) {
+    return rotate(arena, "z", (vec3){0, 0, 1}, 1.0, n[0]);
+}
 
 static struct step shear(struct arena *arena, const double *n) {
     static const struct {
@@ -41,9 +48,11 @@ static struct step shear(struct arena *arena, const double *n) {
     const char *text = "";
     for (int i = 0; i < 6; i++)
         if (n[i] != 0.0)
-            text = arena_format(arena, "%s%s%s: %s", text, *text ? ", " : "", parts[i].key, number_text(arena, parts[i].sign * n[i]));
-    return (struct step){arena_format(arena, "shear: {%s}", *text ? text : "xy: 0"),
-                         affine_columns((vec3){1, n[2], n[4]}, (vec3){n[0], 1, n[5]}, (vec3){n[1], n[3], 1}, (vec3){0, 0, 0})};
+            text = arena_format(arena, "%s%s%s: %s", text, *text ? ", " : "", parts[i].key,
+                                number_text(arena, parts[i].sign * n[i]));
+    return (struct step){
+        arena_format(arena, "shear: {%s}", *text ? text : "xy: 0"),
+        affine_columns((vec3){1, n[2], n[4]}, (vec3){n[0], 1, n[5]}, (vec3){n[1], n[3], 1}, (vec3){0, 0, 0})};
 }
 
 enum { MAX_NUMBERS = 6 };
@@ -87,22 +96,26 @@ static void import_step(struct importer *im, struct steps *steps, struct place_i
     const struct step_kind *kind = find_kind(name);
     double numbers[MAX_NUMBERS];
     if (!name) {
-        diag_error(im->diag, at.node->span, "import-value", "expected a step like [translate, 1, 2, 3], found %s", found_in_book(im, n));
+        diag_error(im->diag, at.node->span, "import-value",
+                   "expected a step like [translate, 1, 2, 3], found %s", found_in_book(im, n));
         return;
     }
     if (!kind) {
-        struct diagnostic *d = diag_error(im->diag, at.node->span, "import-value", "a transform has no step %s", found_in_book(im, name));
+        struct diagnostic *d = diag_error(im->diag, at.node->span, "import-value",
+                                          "a transform has no step %s", found_in_book(im, name));
         diag_help(im->diag, d, "translate, scale, rotate-x, rotate-y, rotate-z or shear");
         return;
     }
     if (n->count != kind->numbers + 1) {
-        diag_error(im->diag, at.node->span, "import-value", "`%s`: expected %u number%s, found %u", kind->name,
-                   kind->numbers, kind->numbers == 1 ? "" : "s", n->count - 1);
+        diag_error(im->diag, at.node->span, "import-value", "`%s`: expected %u number%s, found %u",
+                   kind->name, kind->numbers, kind->numbers == 1 ? "" : "s", n->count - 1);
         return;
     }
     const struct node *item = n->first->next;
     for (uint32_t i = 0; i < kind->numbers; i++, item = item->next)
-        if (!import_number(im, arena_format(im->arena, "`%s`", kind->name), (struct place_in_book){item, at.knows}, &numbers[i])) return;
+        if (!import_number(im, arena_format(im->arena, "`%s`", kind->name),
+                           (struct place_in_book){item, at.knows}, &numbers[i]))
+            return;
     add_step(im, steps, kind->read(im->arena, numbers));
 }
 
@@ -125,17 +138,23 @@ static void import_list(struct importer *im, struct steps *steps, struct place_i
     }
     for (const struct node *item = list->first; item; item = item->next) {
         const struct place_in_book step = {item, at.knows};
-        if (node_resolve(item)->kind == NODE_SCALAR) import_transform(im, steps, step);
-        else import_step(im, steps, step);
+        if (node_resolve(item)->kind == NODE_SCALAR)
+            import_transform(im, steps, step);
+        else
+            import_step(im, steps, step);
     }
 }
 
 void import_transform(struct importer *im, struct steps *steps, struct place_in_book at) {
     const struct node *n = node_resolve(at.node);
     if (node_is_null(n) || !import_enter(im, at.node)) return;
-    if (n->kind == NODE_SCALAR) import_defined(im, steps, at);
-    else if (n->kind == NODE_SEQUENCE) import_list(im, steps, at);
-    else diag_error(im->diag, at.node->span, "import-value", "`transform`: expected a list of steps, found a mapping");
+    if (n->kind == NODE_SCALAR)
+        import_defined(im, steps, at);
+    else if (n->kind == NODE_SEQUENCE)
+        import_list(im, steps, at);
+    else
+        diag_error(im->diag, at.node->span, "import-value",
+                   "`transform`: expected a list of steps, found a mapping");
     import_leave(im);
 }
 

@@ -37,16 +37,16 @@ static bool is_known(const char *key, const char *const *known, struct spelling 
     return false;
 }
 
-void import_check_keys(struct importer *im, const struct layer *layers, const char *what, const char *const *known,
-                       const char *const *also) {
+void import_check_keys(struct importer *im, const struct layer *layers, const char *what,
+                       const char *const *known, const char *const *also) {
     for (; layers; layers = layers->under) {
         for (const struct node *name = layers->mapping->first; name; name = name->next->next) {
             const struct node *n = node_resolve(name);
             const char *key = n->kind == NODE_SCALAR ? n->text : "";
             struct spelling nearest = spelling_begin(key);
             if (is_known(key, known, &nearest) || is_known(key, also, &nearest)) continue;
-            struct diagnostic *d = diag_warning(im->diag, name->span, "import-unknown-key", "%s has no key %s: left out",
-                                                what, found_in_book(im, name));
+            struct diagnostic *d = diag_warning(im->diag, name->span, "import-unknown-key",
+                                                "%s has no key %s: left out", what, found_in_book(im, name));
             if (nearest.best) diag_help(im->diag, d, "did you mean `%s`?", nearest.best);
         }
     }
@@ -66,20 +66,25 @@ void import_define(struct importer *im, const struct node *item) {
     const struct node *name = mapping_find(item, "define"), *value = require(im, item, "value");
     import_check_keys(im, &layer, "a definition", keys, IMPORT_NO_WORDS);
     if (node_resolve(name)->kind != NODE_SCALAR) {
-        diag_error(im->diag, name->span, "import-value", "`define`: expected a name, found %s", found_in_book(im, name));
+        diag_error(im->diag, name->span, "import-value", "`define`: expected a name, found %s",
+                   found_in_book(im, name));
         return;
     }
     if (!value) return;
     struct book_definition *definition = arena_alloc(im->arena, sizeof *definition);
-    *definition = (struct book_definition){.name = node_resolve(name)->text, .span = name->span, .value = value,
-                                           .extend = mapping_find(item, "extend"), .number = ++im->defined};
+    *definition = (struct book_definition){.name = node_resolve(name)->text,
+                                           .span = name->span,
+                                           .value = value,
+                                           .extend = mapping_find(item, "extend"),
+                                           .number = ++im->defined};
     definition->before = table_find(&im->definitions, definition->name);
     table_put(im->arena, &im->definitions, definition->name, definition);
     *im->end = definition;
     im->end = &definition->next;
     if (!definition->before) return;
-    struct diagnostic *d = diag_warning(im->diag, name->span, "import-defined-twice",
-                                        "%s is defined again: from here on it means this", found_in_book(im, name));
+    struct diagnostic *d =
+        diag_warning(im->diag, name->span, "import-defined-twice",
+                     "%s is defined again: from here on it means this", found_in_book(im, name));
     diag_related(im->diag, d, definition->before->span, "the first is here");
 }
 
@@ -90,31 +95,36 @@ struct book_definition *import_definition(struct importer *im, const char *name,
     return definition;
 }
 
-void import_unknown_name(struct importer *im, const struct node *name, const char *what, const char *const *also) {
+void import_unknown_name(struct importer *im, const struct node *name, const char *what,
+                         const char *const *also) {
     const char *word = node_resolve(name)->text;
     const struct book_definition *later = table_find(&im->definitions, word);
-    struct diagnostic *d = diag_error(im->diag, name->span, "import-unknown-name", "%s: nothing called %s is defined before", what,
-                                      found_in_book(im, name));
+    struct diagnostic *d =
+        diag_error(im->diag, name->span, "import-unknown-name", "%s: nothing called %s is defined before",
+                   what, found_in_book(im, name));
     if (later) {
         diag_related(im->diag, d, later->span, "it is defined here: too late to be used there");
         return;
     }
     struct spelling nearest = spelling_begin(word);
     for (; *also; also++) spelling_offer(&nearest, *also);
-    for (const struct book_definition *def = im->first; def; def = def->next) spelling_offer(&nearest, def->name);
+    for (const struct book_definition *def = im->first; def; def = def->next)
+        spelling_offer(&nearest, def->name);
     if (nearest.best) diag_help(im->diag, d, "did you mean `%s`?", nearest.best);
 }
 
 bool import_depth(struct importer *im, const struct node *node, int depth) {
     if (depth < MAX_DEPTH) return true;
-    diag_error(im->diag, node->span, "import-limit", "more than %d groups or definitions within each other", MAX_DEPTH);
+    diag_error(im->diag, node->span, "import-limit", "more than %d groups or definitions within each other",
+               MAX_DEPTH);
     return false;
 }
 
 bool import_enter(struct importer *im, const struct node *node) {
     if (im->parts < MAX_PARTS) return import_depth(im, node, im->depth) && (im->parts++, im->depth++, true);
     if (im->parts++ > MAX_PARTS) return false; /* reported */
-    diag_error(im->diag, node->span, "import-limit", "more than %d objects and transforms, with definitions written out", MAX_PARTS);
+    diag_error(im->diag, node->span, "import-limit",
+               "more than %d objects and transforms, with definitions written out", MAX_PARTS);
     return false;
 }
 
@@ -123,7 +133,8 @@ void import_leave(struct importer *im) { im->depth--; }
 static struct book_definition *extended(struct importer *im, const struct node *extend, uint32_t knows) {
     const struct node *name = node_resolve(extend);
     if (name->kind != NODE_SCALAR) {
-        diag_error(im->diag, extend->span, "import-value", "`extend`: expected a name, found %s", found_in_book(im, name));
+        diag_error(im->diag, extend->span, "import-value", "`extend`: expected a name, found %s",
+                   found_in_book(im, name));
         return NULL;
     }
     struct book_definition *base = import_definition(im, name->text, knows);
@@ -136,7 +147,8 @@ struct layer *import_layers(struct importer *im, struct place_in_book at, const 
     for (int depth = 0; import_depth(im, at.node, depth); depth++) {
         const struct node *mapping = node_resolve(at.node);
         if (mapping->kind != NODE_MAPPING) {
-            diag_error(im->diag, at.node->span, "import-value", "expected a mapping, of an object or a material, found %s",
+            diag_error(im->diag, at.node->span, "import-value",
+                       "expected a mapping, of an object or a material, found %s",
                        found_in_book(im, mapping));
             return NULL;
         }
@@ -156,7 +168,8 @@ struct layer *import_layers(struct importer *im, struct place_in_book at, const 
 struct place_in_book import_named(struct importer *im, struct place_in_book at) {
     for (;;) {
         const struct node *n = node_resolve(at.node);
-        struct book_definition *definition = n->kind == NODE_SCALAR ? import_definition(im, n->text, at.knows) : NULL;
+        struct book_definition *definition =
+            n->kind == NODE_SCALAR ? import_definition(im, n->text, at.knows) : NULL;
         if (!definition) return at;
         at = (struct place_in_book){definition->value, definition->number - 1};
     }
@@ -191,7 +204,8 @@ static bool parse_decimal(struct importer *im, const char *text, double *out) {
 }
 
 static bool wrong_value(struct importer *im, const char *what, const struct node *node, const char *wanted) {
-    diag_error(im->diag, node->span, "import-value", "%s: expected %s, found %s", what, wanted, found_in_book(im, node));
+    diag_error(im->diag, node->span, "import-value", "%s: expected %s, found %s", what, wanted,
+               found_in_book(im, node));
     return false;
 }
 
@@ -202,9 +216,11 @@ bool import_number(struct importer *im, const char *what, struct place_in_book a
     const struct place_in_book value = import_named(im, at);
     const struct node *n = node_resolve(value.node);
     double number;
-    if (n->kind != NODE_SCALAR || !parse_decimal(im, n->text, &number)) return wrong_value(im, what, at.node, "a number");
+    if (n->kind != NODE_SCALAR || !parse_decimal(im, n->text, &number))
+        return wrong_value(im, what, at.node, "a number");
     const double size = fabs(number);
-    if (number != 0.0 && !(size >= least && size <= most)) return wrong_value(im, what, at.node, "0, or a number of size 1e-30 to 1e30");
+    if (number != 0.0 && !(size >= least && size <= most))
+        return wrong_value(im, what, at.node, "0, or a number of size 1e-30 to 1e30");
     *out = number;
     return true;
 }
@@ -214,7 +230,8 @@ bool import_extent(struct importer *im, const char *what, struct place_in_book a
     if (n->kind == NODE_SCALAR) {
         const char *word = n->text + strspn(n->text, "+-.");
         const double sign = n->text[0] == '-' ? -1.0 : 1.0;
-        if (strcasecmp(word, "inf") == 0 || strcasecmp(word, "infinity") == 0) return *out = sign * INFINITY, true;
+        if (strcasecmp(word, "inf") == 0 || strcasecmp(word, "infinity") == 0)
+            return *out = sign * INFINITY, true;
     }
     return import_number(im, what, at, out);
 }
@@ -235,7 +252,8 @@ bool import_color(struct importer *im, const char *what, struct place_in_book at
     vec3 color;
     if (!import_vec3(im, what, at, &color)) return false;
     if (color.x < 0.0 || color.y < 0.0 || color.z < 0.0)
-        diag_warning(im->diag, at.node->span, "import-range", "%s: a colour has no negative parts here: they become 0", what);
+        diag_warning(im->diag, at.node->span, "import-range",
+                     "%s: a colour has no negative parts here: they become 0", what);
     *out = (vec3){fmax(color.x, 0.0), fmax(color.y, 0.0), fmax(color.z, 0.0)};
     return true;
 }

@@ -51,10 +51,10 @@ extern const char *const IMPORT_NO_WORDS[]; /* lists of words end with NULL */
 
 struct book_definition {
     const char *name;
-    struct span span;               /* of the name */
+    struct span span; /* of the name */
     const struct node *value;
-    const struct node *extend;      /* NULL: extends nothing */
-    uint32_t number;                /* from 1, in the order of the file: it knows those before it alone */
+    const struct node *extend; /* NULL: extends nothing */
+    uint32_t number;           /* from 1, in the order of the file: it knows those before it alone */
     bool used;
     const char *material;           /* its name in our `materials`; NULL: not written yet */
     struct book_definition *before; /* an earlier one of the same name, or NULL */
@@ -69,12 +69,12 @@ struct importer {
     uint32_t defined; /* so far */
     struct table material_names;
     struct text view, lights, materials, objects; /* the parts of the result */
-    vec3 ambient;               /* the light of all lights together */
-    const struct node *camera;  /* NULL: none yet */
-    const char *plain_material; /* the name of the book's default; NULL: not written yet */
-    bool shadow_told;           /* that light passes glass */
-    int parts;                  /* objects and transforms entered so far */
-    int depth;                  /* of those entered and not left */
+    vec3 ambient;                                 /* the light of all lights together */
+    const struct node *camera;                    /* NULL: none yet */
+    const char *plain_material;                   /* the name of the book's default; NULL: not written yet */
+    bool shadow_told;                             /* that light passes glass */
+    int parts;                                    /* objects and transforms entered so far */
+    int depth;                                    /* of those entered and not left */
 };
 
 /* A node, and how many definitions it knows. */
@@ -96,7 +96,8 @@ void import_define(struct importer *im, const struct node *item);
 struct book_definition *import_definition(struct importer *im, const char *name, uint32_t knows);
 
 /* Reports a name that nothing has; `also`: what else might be meant. */
-void import_unknown_name(struct importer *im, const struct node *name, const char *what, const char *const *also);
+void import_unknown_name(struct importer *im, const struct node *name, const char *what,
+                         const char *const *also);
 
 /* A mapping and what it extends: by `extend`, or by the key of that name where that is NULL. NULL
  * when one of them is no mapping; reported. */
@@ -106,13 +107,14 @@ const struct node *mapping_find(const struct node *mapping, const char *key); /*
 struct place_in_book layer_find(const struct layer *layer, const char *key);
 
 /* Warns of every key of the layers that is in none of the lists. */
-void import_check_keys(struct importer *im, const struct layer *layers, const char *what, const char *const *known,
-                       const char *const *also);
+void import_check_keys(struct importer *im, const struct layer *layers, const char *what,
+                       const char *const *known, const char *const *also);
 
 /* Each reads a value, which may be the name of a definition. False: it is something else, reported;
  * *out untouched. `what` names it in messages. */
 bool import_number(struct importer *im, const char *what, struct place_in_book at, double *out);
-bool import_extent(struct importer *im, const char *what, struct place_in_book at, double *out); /* or infinite */
+bool import_extent(struct importer *im, const char *what, struct place_in_book at,
+                   double *out); /* or infinite */
 bool import_vec3(struct importer *im, const char *what, struct place_in_book at, vec3 *out);
 bool import_color(struct importer *im, const char *what, struct place_in_book at, vec3 *out); /* made >= 0 */
 bool import_boolean(struct importer *im, const char *what, struct place_in_book at, bool *out);
@@ -165,6 +167,7 @@ void import_add(struct importer *im, struct place_in_book item);
 
 /* Writes "- cylinder: ..." or what else it becomes. False: there is nothing of it, reported. `kind` is
  * sphere, plane, cube, cylinder or cone. */
-bool import_shape(struct importer *im, struct text *text, int indent, const char *kind, const struct layer *layers);
+bool import_shape(struct importer *im, struct text *text, int indent, const char *kind,
+                  const struct layer *layers);
 
 #endif
