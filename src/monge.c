@@ -1,6 +1,7 @@
 /* The library's face: ties the stations together. */
 #include "monge.h"
 
+#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
@@ -9,7 +10,9 @@
 #include "base/diag_write.h"
 #include "base/json.h"
 #include "image/png.h"
+#include "image/replace.h"
 #include "lang/file.h"
+#include "lang/import.h"
 #include "lang/lang.h"
 #include "lang/stories.h"
 #include "render/render.h"
@@ -73,6 +76,7 @@ static size_t chosen(size_t wanted, size_t otherwise) { return wanted ? wanted :
 static size_t least(size_t a, size_t b) { return a < b ? a : b; }
 
 static struct monge_limits effective_limits(const struct monge_limits *given) {
+    if (!given) return default_limits;
     return (struct monge_limits){
         .file_bytes = chosen(given->file_bytes, default_limits.file_bytes),
         .memory_bytes = chosen(given->memory_bytes, default_limits.memory_bytes),
@@ -82,6 +86,15 @@ static struct monge_limits effective_limits(const struct monge_limits *given) {
         .steps = chosen(given->steps, default_limits.steps),
         .objects = chosen(given->objects, default_limits.objects),
     };
+}
+
+static struct lang_limits lang_limits(const struct monge_limits *limits) {
+    return (struct lang_limits){.file_bytes = limits->file_bytes,
+                                .nesting = (unsigned)limits->nesting,
+                                .values = limits->values,
+                                .recursion = (unsigned)limits->recursion,
+                                .steps = limits->steps,
+                                .objects = limits->objects};
 }
 
 /* One load. The description and the text it points into die with it; the scene stays. */
@@ -109,7 +122,6 @@ static const struct lang_define *lang_defines(struct load *load) {
 
 static bool load_scene(struct load *load) {
     struct monge_scene *scene = load->scene;
-    const struct monge_limits *limits = &load->options.limits;
     const unsigned errors = load->diag->errors;
     const struct source *source = read_source(load);
     if (!source) return false;
@@ -118,7 +130,7 @@ static bool load_scene(struct load *load) {
     const struct lang_input input = {
         .source = source,
         .path = load->name,
-        .limits = {limits->file_bytes, (unsigned)limits->nesting, limits->values, (unsigned)limits->recursion, limits->steps, limits->objects},
+        .limits = lang_limits(&load->options.limits),
         .defines = lang_defines(load),
         .define_count = load->options.define_count,
         .frame = load->options.frame,
@@ -200,6 +212,41 @@ bool monge_scene_prepare(struct monge_scene *scene) {
     else arena_release(&scene->arena, before);
     scene->arena.on_full = NULL;
     return scene->accel != NULL;
+}
+
+/* ---- Importing ---- */
+
+static bool write_text(const char *text, const char *path, struct diagnostics *diag) {
+    struct replacement file;
+    if (replace_begin(&file, path)) {
+        fputs(text, file.stream);
+        if (replace_commit(&file)) return true;
+    }
+    diag_failure(diag, "cannot-write", "cannot write %s: %s", strcmp(path, "-") == 0 ? "standard output" : path, strerror(errno));
+    return false;
+}
+
+static bool import_text(struct arena *arena, const char *path, const char *out_path, const struct monge_limits *limits,
+                        struct diagnostics *diag) {
+    const struct lang_limits within = lang_limits(limits);
+    const struct source *source = file_read(arena, diag, path, limits->file_bytes);
+    const char *text = source ? lang_import(arena, diag, source, &within) : NULL;
+    return text && write_text(text, out_path, diag);
+}
+
+bool monge_import(const char *path, const char *out_path, const struct monge_limits *given, struct monge_diagnostics *diag) {
+    const struct monge_limits limits = effective_limits(given);
+    jmp_buf full;
+    struct arena arena = {.limit = limits.memory_bytes, .on_full = &full};
+    volatile bool done = false;
+    if (setjmp(full) == 0) {
+        done = import_text(&arena, path, out_path, &limits, &diag->list);
+    } else {
+        diag_failure(&diag->list, "limit-memory", "%s: takes more memory than there is, or than %zu bytes (the limit `memory_bytes`)",
+                     path, limits.memory_bytes);
+    }
+    arena_free(&arena);
+    return done;
 }
 
 /* ---- Settings ---- */

@@ -106,6 +106,14 @@ size_t monge_scene_primitives(const struct monge_scene *scene);
  * False when there is no memory for it. */
 bool monge_scene_prepare(struct monge_scene *scene);
 
+/* ---- Scenes of others ---- */
+
+/* Writes the scene in `path`, in the YAML format of "The Ray Tracer Challenge", to `out_path` in our
+ * language; "-" is standard input and output. A regular file appears complete under its name or not
+ * at all, and nothing is written when the scene is wrong. What the language cannot say is in diag as
+ * warnings. limits may be NULL. False: diag says why, monge_diagnostics_failures which of the two. */
+bool monge_import(const char *path, const char *out_path, const struct monge_limits *limits, struct monge_diagnostics *diag);
+
 /* ---- Settings: what an author writes in the file and a user may override ---- */
 
 enum monge_shading {

@@ -109,7 +109,7 @@ exits 0 --help; out_has 'usage: monge COMMAND'; out_has 'render SCENE...'; no_er
 exits 0 -h; out_has 'usage: monge COMMAND'
 exits 0 help; out_has 'usage: monge COMMAND'
 exits 2; err_has 'usage: monge COMMAND'; no_out
-for command in render check explain help; do
+for command in render check explain import help; do
     exits 0 help $command; out_has "usage: monge $command"
     cp out expected
     exits 0 $command --help; ok "$command --help is help $command" cmp out expected
@@ -341,6 +341,27 @@ exits 0 explain unknown-key no-light; out_has 'unknown-key (error)'; out_has 'no
 exits 2 explain unknown-kye; err_has 'did you mean `unknown-key`?'; no_out
 exits 2 explain zzzzzzzz; err_has '`monge explain` lists them'; no_out
 exits 2 explain --format json; err_has '--format'
+
+# ---- Importing ----
+
+printf -- '- add: sphere\n- add: light\n  at: [-10, 10, -10]\n  intensity: [1, 1, 1]\n' >book.yml
+printf -- '- add: sphre\n' >wrongbook.yml
+exits 0 import book.yml; out_has '- sphere: {}'; err_has 'book.yml:1:1: warning[import-missing]: there is no camera'
+cp out imported.yaml
+exits 0 import book.yml -o book.yaml; ok "-o gives the same" cmp imported.yaml book.yaml; no_out; no_temporaries
+exits 0 check book.yaml
+last='import - <book.yml | render -'
+"$monge" import - <book.yml 2>err | "$monge" render "${small[@]}" -q - >out 2>>err; status=$?
+is_png out
+exits 1 import wrongbook.yml -o none.yaml; err_has 'did you mean `sphere`?'; missing none.yaml
+exits 2 import; err_has 'import: no scene given'
+exits 2 import book.yml one.yaml; err_has 'import: expected one file, found `one.yaml` as well'
+exits 2 import absent.yml; err_has 'No such file or directory'
+exits 2 import book.yml -o ./book.yml; err_has 'book.yml would be written over'
+exits 2 import book.yml -o none/x.yaml; err_has 'cannot write none/x.yaml: No such file or directory'
+exits 2 import book.yml --size 4x4; err_has 'no option `--size`'
+[ -e full ] && exits 2 import book.yml -o full && err_has 'cannot write full: No space left on device'
+exits 0 help import; out_has '-o, --output FILE'
 
 # ---- Statistics ----
 

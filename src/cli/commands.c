@@ -5,6 +5,7 @@
 #include "cli/check.h"
 #include "cli/explain.h"
 #include "cli/help.h"
+#include "cli/import.h"
 #include "cli/options.h"
 #include "cli/render.h"
 #include "cli/say.h"
@@ -15,12 +16,16 @@
 #define IN_RENDER  (1u << COMMAND_RENDER)
 #define IN_CHECK   (1u << COMMAND_CHECK)
 #define IN_EXPLAIN (1u << COMMAND_EXPLAIN)
+#define IN_IMPORT  (1u << COMMAND_IMPORT)
 #define IN_HELP    (1u << COMMAND_HELP)
+#define IN_ALL     ((1u << COMMANDS) - 1)
 
 /* The words of a choice stand in the order of the enum that they become. */
 const struct option_row OPTION_TABLE[OPTIONS] = {
     [OPTION_OUTPUT] = {"output", 'o', VALUE_FILE, IN_RENDER, "FILE|DIR/|PATTERN", 0, 0,
                        "where the picture goes: a file, a folder, a pattern with {name}, or -"},
+    [OPTION_IMPORT_OUTPUT] = {"output", 'o', VALUE_FILE, IN_IMPORT, "FILE", 0, 0,
+                              "where the scene goes; - is standard output, which is the default"},
     [OPTION_SIZE] = {"size", 0, VALUE_SIZE, IN_RENDER, "WxH", 1, MONGE_MAX_SIDE,
                      "size of the picture in pixels"},
     [OPTION_SAMPLES] = {"samples", 0, VALUE_WHOLE, IN_RENDER, "N", 1, MONGE_MAX_SAMPLES, "samples a pixel"},
@@ -49,7 +54,7 @@ const struct option_row OPTION_TABLE[OPTIONS] = {
     [OPTION_MAN] = {"man", 0, VALUE_NONE, IN_HELP, NULL, 0, 0, "print the manual page, as roff"},
     [OPTION_COMPLETION] = {"completion", 0, VALUE_CHOICE, IN_HELP, "bash|zsh|fish", 0, 0,
                            "print the completion script of a shell"},
-    [OPTION_HELP] = {"help", 'h', VALUE_NONE, IN_NONE | IN_RENDER | IN_CHECK | IN_EXPLAIN | IN_HELP, NULL, 0, 0,
+    [OPTION_HELP] = {"help", 'h', VALUE_NONE, IN_ALL, NULL, 0, 0,
                      "show this help"},
     [OPTION_VERSION] = {"version", 0, VALUE_NONE, IN_NONE, NULL, 0, 0, "show the version"},
 };
@@ -129,6 +134,22 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
             .examples = {{"monge explain unknown-key", "the story behind error[unknown-key]"},
                          {"monge explain | grep camera", "the codes that have to do with the camera"}},
             .run = explain_command,
+        },
+    [COMMAND_IMPORT] =
+        {
+            .name = "import",
+            .operands = "FILE",
+            .doc = "turn a scene of The Ray Tracer Challenge into one of ours",
+            .text = {"Reads a scene in the YAML format of Jamis Buck's book The Ray Tracer Challenge, "
+                     "a list of `add` and `define`, and writes it as a scene of this language. What "
+                     "the language cannot say is left out or approximated, each with a warning and "
+                     "its place on standard error.",
+                     "The file is complete or absent, and absent when the scene is wrong. The FILE "
+                     "- is standard input."},
+            .examples = {{"monge import cover.yml -o cover.yaml", "writes cover.yaml"},
+                         {"monge import cover.yml | monge render - -o cover.png", "straight to a picture"}},
+            .needs_operand = true,
+            .run = import_command,
         },
     [COMMAND_HELP] =
         {

@@ -10,10 +10,11 @@
 /* As diff(1) has them; of several, the highest counts. */
 enum status { STATUS_YES, STATUS_NO /* a scene is wrong */, STATUS_TROUBLE /* usage, files, system */ };
 
-enum command_id { COMMAND_NONE /* monge itself */, COMMAND_RENDER, COMMAND_CHECK, COMMAND_EXPLAIN, COMMAND_HELP, COMMANDS };
+enum command_id { COMMAND_NONE /* monge itself */, COMMAND_RENDER, COMMAND_CHECK, COMMAND_EXPLAIN, COMMAND_IMPORT, COMMAND_HELP, COMMANDS };
 
 enum option_id {
     OPTION_OUTPUT,
+    OPTION_IMPORT_OUTPUT, /* the same words, but of a scene */
     OPTION_SIZE,
     OPTION_SAMPLES,
     OPTION_REGION,

@@ -167,11 +167,22 @@ static void powers_at_the_ends(void **state) {
     assert_true(elementary_pow(2, 10) == 1024);
 }
 
+static void arctangent(void **state) {
+    (void)state;
+    const long double pi = 3.14159265358979323846264338327950288L;
+    struct random r = random_begin();
+    for (int i = 0; i < RANDOM_ANGLES; i++) {
+        const double x = random_between(&r, -1, 1) * pow(10, random_between(&r, -8, 8));
+        assert_ulp(elementary_atan_deg(x), atanl(x) * 180.0L / pi, 3.0, "atan", x);
+    }
+    assert_true(elementary_atan_deg(0) == 0);
+}
+
 int main(void) {
     struct CMUnitTest tests[COUNT(exacts)];
     for (size_t i = 0; i < COUNT(exacts); i++) tests[i] = (struct CMUnitTest){exacts[i].name, check_exact, NULL, NULL, &exacts[i]};
     const struct CMUnitTest others[] = {
-        cmocka_unit_test(sine_and_cosine), cmocka_unit_test(tangent),        cmocka_unit_test(power),
+        cmocka_unit_test(sine_and_cosine), cmocka_unit_test(tangent), cmocka_unit_test(arctangent),        cmocka_unit_test(power),
         cmocka_unit_test(symmetries_hold_exactly), cmocka_unit_test(tangents_of_45), cmocka_unit_test(powers_at_the_ends),
         cmocka_unit_test(exponentials_and_logarithms), cmocka_unit_test(whole_powers_and_their_logarithms_are_exact),
         cmocka_unit_test(inverses), cmocka_unit_test(angles_of_whole_degrees),
