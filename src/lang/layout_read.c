@@ -96,6 +96,7 @@ static void deal_comments(struct reader *rd, size_t end, int64_t next_column, st
         if (first && take_trailing(rd, c)) continue;
         struct layout_node *n = c->column > next_column ? rd->closed : NULL;
         while (n && n->column > c->column) n = n->outer;
+        while (n && n->outer && n->outer->column == n->column) n = n->outer; /* a list in the column of its key */
         append(n ? &n->end : before, c);
         rd->closed = n;
     }
