@@ -22,7 +22,8 @@ static enum status settle(const struct arguments *args, const char *path, const 
     return STATUS_YES;
 }
 
-static enum status format_scene(const struct arguments *args, const char *path, struct monge_diagnostics *diag) {
+static enum status format_scene(const struct arguments *args, const char *path,
+                                struct monge_diagnostics *diag) {
     struct monge_text text = {NULL, 0}, formatted = {NULL, 0};
     enum status status = STATUS_TROUBLE;
     if (monge_text_read(path, NULL, &text, diag) &&

@@ -18,11 +18,11 @@ static inline bool cursor_continues(const struct cursor *c, size_t offset) {
 
 /* The offset of the character `index`; at most the size of the text. */
 static inline size_t cursor_move(struct cursor *c, size_t index) {
-    for (; c->index < index && c->offset < c->source->size; c->index++)
-        do c->offset++;
+    for (; c->index < index && c->offset < c->source->size; c->index++) do
+            c->offset++;
         while (cursor_continues(c, c->offset));
-    for (; c->index > index; c->index--)
-        do c->offset--;
+    for (; c->index > index; c->index--) do
+            c->offset--;
         while (cursor_continues(c, c->offset));
     return c->offset;
 }

@@ -6,7 +6,8 @@
 #include "lang/node.h"
 #include "lang/problem.h"
 
-static bool is_yaml(struct arena *arena, struct diagnostics *diag, const struct source *source, const struct lang_limits *limits) {
+static bool is_yaml(struct arena *arena, struct diagnostics *diag, const struct source *source,
+                    const struct lang_limits *limits) {
     const struct node_limits node_limits = {limits->nesting, limits->values};
     struct node_problem problem = {0};
     if (node_parse(arena, diag, source, &node_limits, &problem)) return true;
@@ -33,7 +34,10 @@ static bool has_separator(struct diagnostics *diag, const struct source *source)
     for (size_t i = 0, size; i < source->size; i += size ? size : source_character(source, i)) {
         size = source_break(source, i);
         if (size == 3) {
-            diag_help(diag, diag_error(diag, span, "bad-character", "a line separator (U+2028) or paragraph separator (U+2029)"), "remove it");
+            diag_help(diag,
+                      diag_error(diag, span, "bad-character",
+                                 "a line separator (U+2028) or paragraph separator (U+2029)"),
+                      "remove it");
             return true;
         }
         span.line += size > 0;
@@ -42,8 +46,8 @@ static bool has_separator(struct diagnostics *diag, const struct source *source)
     return false;
 }
 
-char *format_text(struct arena *arena, struct diagnostics *diag, const struct source *source, const struct lang_limits *limits,
-                  size_t *size) {
+char *format_text(struct arena *arena, struct diagnostics *diag, const struct source *source,
+                  const struct lang_limits *limits, size_t *size) {
     if (!is_yaml(arena, diag, source, limits) || has_separator(diag, source)) return NULL;
     const struct source *plain = with_line_feeds(arena, source);
     const struct layout *layout = layout_read(arena, diag, plain);
@@ -51,6 +55,8 @@ char *format_text(struct arena *arena, struct diagnostics *diag, const struct so
     char *text = layout_print(arena, layout, size);
     const struct source result = {source->name, text, *size};
     if (layout_same_events(source, &result) && layout_same_comments(arena, plain, &result)) return text;
-    diag_failure(diag, "format-differs", "%s: a mistake in Monge: the formatted text would not say the same; it is left as it is", source->name);
+    diag_failure(diag, "format-differs",
+                 "%s: a mistake in Monge: the formatted text would not say the same; it is left as it is",
+                 source->name);
     return NULL;
 }

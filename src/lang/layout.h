@@ -31,18 +31,19 @@ struct layout_entry;
 
 struct layout_node {
     enum node_kind kind;
-    bool flow;               /* a collection in brackets */
-    bool braces;             /* flow: false for a pair `a: b` in a list */
-    bool spread;             /* a flow collection or scalar on several lines */
-    bool commented;          /* flow: comments stand inside */
-    bool close_line;         /* flow: the closing bracket begins a line */
-    bool cut;                /* a block scalar that the end of the text cuts off before its last line break */
-    const char *props;       /* anchor and tag as written, or "" */
-    const char *text;        /* scalar, alias: as written */
+    bool flow;         /* a collection in brackets */
+    bool braces;       /* flow: false for a pair `a: b` in a list */
+    bool spread;       /* a flow collection or scalar on several lines */
+    bool commented;    /* flow: comments stand inside */
+    bool close_line;   /* flow: the closing bracket begins a line */
+    bool cut;          /* a block scalar that the end of the text cuts off before its last line break */
+    const char *props; /* anchor and tag as written, or "" */
+    const char *text;  /* scalar, alias: as written */
     size_t size;
-    uint32_t column;         /* block collection: of its entries; block scalar: of the collection around */
-    struct layout_comment *header; /* flow: behind the opening bracket; block scalar: behind | or >; or NULL */
-    struct layout_comments end;    /* after the last entry; of a null in a block: below it */
+    uint32_t column; /* block collection: of its entries; block scalar: of the collection around */
+    struct layout_comment
+        *header;                /* flow: behind the opening bracket; block scalar: behind | or >; or NULL */
+    struct layout_comments end; /* after the last entry; of a null in a block: below it */
     struct layout_entry *first;
     struct layout_node *outer; /* while reading: the next collection around that has ended as well */
 };
@@ -50,16 +51,16 @@ struct layout_node {
 struct layout_entry {
     struct layout_node *key; /* NULL in a sequence and for the root */
     struct layout_node *value;
-    bool colon;                     /* the key is followed by one, as always but in {a, b} */
-    bool blank_before, line_before; /* a blank line; in a flow collection: a line break */
-    struct layout_comments before;  /* lines of their own */
-    struct layout_comments between; /* after the colon or the dash, before the value or its first entry */
+    bool colon;                      /* the key is followed by one, as always but in {a, b} */
+    bool blank_before, line_before;  /* a blank line; in a flow collection: a line break */
+    struct layout_comments before;   /* lines of their own */
+    struct layout_comments between;  /* after the colon or the dash, before the value or its first entry */
     struct layout_comment *trailing; /* behind the value, or NULL */
     struct layout_entry *next;
 };
 
 struct layout {
-    const char *preamble;        /* lines up to the `---`, or NULL where there is none */
+    const char *preamble; /* lines up to the `---`, or NULL where there is none */
     size_t preamble_size;
     struct layout_comment *start; /* behind the `---`, or NULL */
     struct layout_entry root;
@@ -71,8 +72,8 @@ struct layout_marks {
     struct layout_comment *comments;
     size_t *dashes; /* offsets of the `-` of list items, in order */
     size_t dash_count;
-    size_t odd_key; /* offset of the first key behind `?`, or SIZE_MAX */
-    size_t start, body;  /* offsets of the `---` and of what follows it; SIZE_MAX and 0 without one */
+    size_t odd_key;     /* offset of the first key behind `?`, or SIZE_MAX */
+    size_t start, body; /* offsets of the `---` and of what follows it; SIZE_MAX and 0 without one */
 };
 
 /* `source` must be YAML, in UTF-8 with line feeds alone; arena->on_full must be set. */

@@ -27,8 +27,10 @@ void print_inline(struct printer *p, const struct layout_node *node) {
     const bool mapping = node->kind == NODE_MAPPING;
     printer_word(p, mapping ? "{" : "[");
     for (const struct layout_entry *entry = node->first; entry; entry = entry->next) {
-        if (mapping) print_pair(p, entry);
-        else print_inline(p, entry->value);
+        if (mapping)
+            print_pair(p, entry);
+        else
+            print_inline(p, entry->value);
         if (entry->next) printer_word(p, ", ");
         if (p->probing && p->column > LAYOUT_WIDTH) return;
     }
@@ -72,8 +74,10 @@ static void print_folded(struct printer *p, const struct layout_node *node, uint
     for (size_t i = 0; i < node->size;) {
         const size_t length = line_length(node->text + i, node->size - i), next = i + length + 1;
         size_t begin = i;
-        if (i > 0) while (begin < i + length && (node->text[begin] == ' ' || node->text[begin] == '\t')) begin++;
-        const size_t size = next > node->size ? i + length - begin : trimmed(node->text + begin, i + length - begin, escapes);
+        if (i > 0)
+            while (begin < i + length && (node->text[begin] == ' ' || node->text[begin] == '\t')) begin++;
+        const size_t size =
+            next > node->size ? i + length - begin : trimmed(node->text + begin, i + length - begin, escapes);
         if (i > 0 && size > 0) printer_indent(p, column);
         printer_put(p, node->text + begin, size);
         if (next <= node->size) printer_end_line(p, NULL);
@@ -83,7 +87,7 @@ static void print_folded(struct printer *p, const struct layout_node *node, uint
 
 /* What stands behind | or >. */
 struct block_header {
-    size_t size; /* with its line break */
+    size_t size;    /* with its line break */
     uint32_t digit; /* 0: none */
     char chomp;     /* + - or 0 */
 };
@@ -92,8 +96,10 @@ static struct block_header read_header(const struct layout_node *node) {
     struct block_header h = {.size = line_length(node->text, node->size) + 1};
     for (size_t i = 1; i < node->size && !strchr(" \t\n#", node->text[i]); i++) {
         const char c = node->text[i];
-        if (c == '+' || c == '-') h.chomp = c;
-        else h.digit = (uint32_t)(c - '0');
+        if (c == '+' || c == '-')
+            h.chomp = c;
+        else
+            h.digit = (uint32_t)(c - '0');
     }
     if (node->cut) h.chomp = '-';
     return h;
@@ -140,16 +146,21 @@ void print_scalar(struct printer *p, const struct layout_node *node, uint32_t co
     const bool block = node->size > 0 && strchr("|>", *node->text);
     printer_word(p, node->props);
     if (*node->props) printer_word(p, " ");
-    if (block) print_block_scalar(p, node, column);
-    else print_folded(p, node, column);
+    if (block)
+        print_block_scalar(p, node, column);
+    else
+        print_folded(p, node, column);
 }
 
 /* ---- With the author's line breaks ---- */
 
 static void print_item(struct printer *p, const struct layout_node *node, uint32_t column) {
-    if (node->flow && (node->commented || node->spread)) print_lines(p, node, column);
-    else if (node->spread) print_scalar(p, node, column);
-    else print_inline(p, node);
+    if (node->flow && (node->commented || node->spread))
+        print_lines(p, node, column);
+    else if (node->spread)
+        print_scalar(p, node, column);
+    else
+        print_inline(p, node);
 }
 
 /* `key:`, comments between, and the value. */
@@ -169,13 +180,16 @@ static void print_lines_pair(struct printer *p, const struct layout_entry *entry
 }
 
 /* Comments before the entry, and the start of its line where it has one of its own. */
-static void begin_lines_entry(struct printer *p, const struct layout_entry *entry, bool first, uint32_t column) {
+static void begin_lines_entry(struct printer *p, const struct layout_entry *entry, bool first,
+                              uint32_t column) {
     const struct layout_comment *between = entry->key ? NULL : entry->between.first;
     if ((entry->line_before || entry->before.first || between) && p->column > 0) printer_end_line(p, NULL);
     printer_comments(p, entry->before.first, column);
     printer_comments(p, between, column);
-    if (p->column == 0) printer_indent(p, column);
-    else if (!first) printer_word(p, " ");
+    if (p->column == 0)
+        printer_indent(p, column);
+    else if (!first)
+        printer_word(p, " ");
 }
 
 void print_lines(struct printer *p, const struct layout_node *node, uint32_t column) {
@@ -184,15 +198,19 @@ void print_lines(struct printer *p, const struct layout_node *node, uint32_t col
     printer_word(p, node->props);
     if (*node->props) printer_word(p, " ");
     printer_word(p, mapping ? "{" : "[");
-    const bool hangs = !first || node->header || first->line_before || first->before.first || (!mapping && first->between.first);
+    const bool hangs = !first || node->header || first->line_before || first->before.first ||
+                       (!mapping && first->between.first);
     const uint32_t close = hangs ? column : p->column - 1, inner = hangs ? column + LAYOUT_INDENT : p->column;
     if (node->header) printer_end_line(p, node->header);
     for (const struct layout_entry *entry = first; entry; entry = entry->next) {
         begin_lines_entry(p, entry, entry == first, inner);
-        if (mapping) print_lines_pair(p, entry, inner + LAYOUT_INDENT);
-        else print_item(p, entry->value, inner + LAYOUT_INDENT);
+        if (mapping)
+            print_lines_pair(p, entry, inner + LAYOUT_INDENT);
+        else
+            print_item(p, entry->value, inner + LAYOUT_INDENT);
         const bool closes = !entry->next && !entry->trailing && !node->close_line && !node->end.first;
-        if (mapping && entry->colon && is_bare(entry->value) && (entry->next || closes)) printer_word(p, " "); /* `:,` is no YAML */
+        if (mapping && entry->colon && is_bare(entry->value) && (entry->next || closes))
+            printer_word(p, " "); /* `:,` is no YAML */
         if (entry->next) printer_word(p, ",");
         if (entry->trailing) printer_end_line(p, entry->trailing);
     }

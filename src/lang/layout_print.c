@@ -32,9 +32,12 @@ static void print_leaf(struct printer *p, const struct layout_entry *entry, uint
     } else if (p->column > 0 && !empty) {
         printer_word(p, " ");
     }
-    if (node->flow && node->commented) print_lines(p, node, column);
-    else if (node->spread && node->kind == NODE_SCALAR) print_scalar(p, node, column > 0 ? column : LAYOUT_INDENT);
-    else print_inline(p, node);
+    if (node->flow && node->commented)
+        print_lines(p, node, column);
+    else if (node->spread && node->kind == NODE_SCALAR)
+        print_scalar(p, node, column > 0 ? column : LAYOUT_INDENT);
+    else
+        print_inline(p, node);
     if (is_block_scalar(node)) return;
     printer_end_line(p, entry->trailing);
     if (!is_null(node) || !node->end.first) return;
@@ -46,9 +49,12 @@ static void print_leaf(struct printer *p, const struct layout_entry *entry, uint
 static struct layout_comments move_trailing(const struct layout_entry *entry, bool begun) {
     struct layout_comments between = entry->between;
     if (!entry->trailing) return between;
-    if (begun) entry->value->first->trailing = entry->trailing;
-    else if (between.last) between.last = between.last->next = entry->trailing;
-    else between.first = between.last = entry->trailing;
+    if (begun)
+        entry->value->first->trailing = entry->trailing;
+    else if (between.last)
+        between.last = between.last->next = entry->trailing;
+    else
+        between.first = between.last = entry->trailing;
     return between;
 }
 
@@ -80,10 +86,14 @@ static void print_block(struct printer *p, const struct layout_node *node, uint3
         printer_comments(p, entry->before.first, column);
         if (!begun) printer_blank_line(p, entry->blank_before);
         printer_indent(p, column);
-        if (entry->key) print_key(p, entry->key);
-        else printer_word(p, "-");
-        if (is_nested(p, entry, column + LAYOUT_INDENT)) print_nested(p, entry, column + LAYOUT_INDENT, !entry->key);
-        else print_leaf(p, entry, column + LAYOUT_INDENT);
+        if (entry->key)
+            print_key(p, entry->key);
+        else
+            printer_word(p, "-");
+        if (is_nested(p, entry, column + LAYOUT_INDENT))
+            print_nested(p, entry, column + LAYOUT_INDENT, !entry->key);
+        else
+            print_leaf(p, entry, column + LAYOUT_INDENT);
     }
     printer_comments(p, node->end.first, column);
 }
@@ -122,8 +132,10 @@ static void print_root(struct printer *p, const struct layout_entry *root) {
     const struct layout_comments between = move_trailing(root, false);
     p->fresh = true; /* the first entry begins where the root does */
     printer_word(p, node->props);
-    if (*node->props) open_lines(p, between.first, 0);
-    else printer_comments(p, between.first, 0);
+    if (*node->props)
+        open_lines(p, between.first, 0);
+    else
+        printer_comments(p, between.first, 0);
     print_block(p, node, 0, false);
 }
 

@@ -62,8 +62,10 @@ static bool begins_line(const struct reader *rd, size_t at) {
 
 static void append(struct layout_comments *list, struct layout_comment *c) {
     c->next = NULL;
-    if (list->last) list->last->next = c;
-    else list->first = c;
+    if (list->last)
+        list->last->next = c;
+    else
+        list->first = c;
     list->last = c;
 }
 
@@ -90,13 +92,15 @@ static bool take_trailing(struct reader *rd, struct layout_comment *c) {
 
 /* Comments up to `end`, where the next entry of a block or the end is: each goes to the innermost
  * collection that has ended and is not further to the right than the comment, or else before the next. */
-static void deal_comments(struct reader *rd, size_t end, int64_t next_column, struct layout_comments *before) {
+static void deal_comments(struct reader *rd, size_t end, int64_t next_column,
+                          struct layout_comments *before) {
     bool first = true;
     for (struct layout_comment *c; (c = take_comment(rd, end)); first = false) {
         if (first && take_trailing(rd, c)) continue;
         struct layout_node *n = c->column > next_column ? rd->closed : NULL;
         while (n && n->column > c->column) n = n->outer;
-        while (n && n->outer && n->outer->column == n->column) n = n->outer; /* a list in the column of its key */
+        while (n && n->outer && n->outer->column == n->column)
+            n = n->outer; /* a list in the column of its key */
         append(n ? &n->end : before, c);
         rd->closed = n;
     }
@@ -149,7 +153,8 @@ static bool has_colon(const struct reader *rd, size_t at) {
 static size_t prop_end(const char *text, size_t at, size_t end) {
     const bool verbatim = text[at] == '!' && at + 1 < end && text[at + 1] == '<', tag = text[at] == '!';
     size_t i = at + 1;
-    if (verbatim) while (i < end && text[i] != '>') i++;
+    if (verbatim)
+        while (i < end && text[i] != '>') i++;
     while (i < end && !is_space(text[i]) && (tag || !strchr(",[]{}:?", text[i]))) i++;
     return i;
 }
@@ -161,7 +166,8 @@ static size_t read_props(struct reader *rd, struct layout_node *node, size_t at,
     while (at < end) {
         if (text[at] == '&' || text[at] == '!') {
             const size_t stop = prop_end(text, at, end);
-            node->props = arena_format(rd->arena, "%s%s%.*s", node->props, *node->props ? " " : "", (int)(stop - at), text + at);
+            node->props = arena_format(rd->arena, "%s%s%.*s", node->props, *node->props ? " " : "",
+                                       (int)(stop - at), text + at);
             at = stop;
         } else if (text[at] == '#') {
             while (at < end && text[at] != '\n') at++;
@@ -180,7 +186,9 @@ static void read_text(struct reader *rd, struct layout_node *node, size_t begin,
     node->size = end - begin;
     node->spread = has_break(rd, begin, end);
     node->column = rd->column;
-    if (node->size == 0 || !strchr("|>", *node->text) || rd->event.data.scalar.style == YAML_PLAIN_SCALAR_STYLE) return;
+    if (node->size == 0 || !strchr("|>", *node->text) ||
+        rd->event.data.scalar.style == YAML_PLAIN_SCALAR_STYLE)
+        return;
     node->header = take_comment(rd, end);
     node->cut = end == rd->cursor.source->size && text[end - 1] != '\n';
 }
@@ -189,13 +197,17 @@ static void read_block(struct reader *rd, struct layout_node *node, struct layou
     const bool mapping = node->kind == NODE_MAPPING;
     const uint32_t outer = rd->column;
     struct layout_entry **tail = &node->first;
-    for (next_event(rd); rd->event.type != YAML_MAPPING_END_EVENT && rd->event.type != YAML_SEQUENCE_END_EVENT; next_event(rd)) {
+    for (next_event(rd);
+         rd->event.type != YAML_MAPPING_END_EVENT && rd->event.type != YAML_SEQUENCE_END_EVENT;
+         next_event(rd)) {
         const size_t at = mapping ? offset_of(rd, rd->event.start_mark) : rd->marks.dashes[rd->dash++];
         const bool first = !node->first;
         struct layout_entry *entry = add_entry(rd, &tail);
         if (first) take_comments(rd, at, &owner->between);
-        if (first) node->column = rd->column = column_of(rd, at);
-        else deal_comments(rd, at, node->column, &entry->before);
+        if (first)
+            node->column = rd->column = column_of(rd, at);
+        else
+            deal_comments(rd, at, node->column, &entry->before);
         entry->blank_before = blank_before(rd, at);
         if (mapping) read_key(rd, entry);
         entry->value = read_node(rd, entry);
@@ -205,11 +217,14 @@ static void read_block(struct reader *rd, struct layout_node *node, struct layou
 }
 
 /* Comments before an entry or the closing bracket of a flow collection. */
-static void take_flow_comments(struct reader *rd, struct layout_node *node, size_t end, struct layout_comments *list) {
+static void take_flow_comments(struct reader *rd, struct layout_node *node, size_t end,
+                               struct layout_comments *list) {
     bool first = true;
     for (struct layout_comment *c; (c = take_comment(rd, end)); first = false) {
-        if (first && !node->first && !c->own_line) node->header = c;
-        else if (!first || !node->first || !take_trailing(rd, c)) append(list, c);
+        if (first && !node->first && !c->own_line)
+            node->header = c;
+        else if (!first || !node->first || !take_trailing(rd, c))
+            append(list, c);
     }
 }
 
@@ -219,7 +234,9 @@ static void read_flow(struct reader *rd, struct layout_node *node, size_t begin)
     size_t at = begin, end = begin;
     struct layout_entry **tail = &node->first;
     rd->brackets++;
-    for (next_event(rd); rd->event.type != YAML_MAPPING_END_EVENT && rd->event.type != YAML_SEQUENCE_END_EVENT; next_event(rd)) {
+    for (next_event(rd);
+         rd->event.type != YAML_MAPPING_END_EVENT && rd->event.type != YAML_SEQUENCE_END_EVENT;
+         next_event(rd)) {
         struct layout_comments before = {0};
         at = offset_of(rd, rd->event.start_mark);
         take_flow_comments(rd, node, at, &before);
@@ -245,7 +262,8 @@ static void read_flow(struct reader *rd, struct layout_node *node, size_t begin)
 
 static bool is_block(const yaml_event_t *e) {
     return (e->type == YAML_MAPPING_START_EVENT && e->data.mapping_start.style == YAML_BLOCK_MAPPING_STYLE) ||
-           (e->type == YAML_SEQUENCE_START_EVENT && e->data.sequence_start.style == YAML_BLOCK_SEQUENCE_STYLE);
+           (e->type == YAML_SEQUENCE_START_EVENT &&
+            e->data.sequence_start.style == YAML_BLOCK_SEQUENCE_STYLE);
 }
 
 /* The node that the current event starts, the value of `owner`. */
@@ -254,16 +272,22 @@ static struct layout_node *read_node(struct reader *rd, struct layout_entry *own
     const yaml_event_type_t type = rd->event.type;
     const size_t start = offset_of(rd, rd->event.start_mark), end = offset_of(rd, rd->event.end_mark);
     const size_t begin = read_props(rd, node, start, end);
-    node->kind = type == YAML_MAPPING_START_EVENT ? NODE_MAPPING : type == YAML_SEQUENCE_START_EVENT ? NODE_SEQUENCE : type == YAML_ALIAS_EVENT ? NODE_ALIAS : NODE_SCALAR;
+    node->kind = type == YAML_MAPPING_START_EVENT    ? NODE_MAPPING
+                 : type == YAML_SEQUENCE_START_EVENT ? NODE_SEQUENCE
+                 : type == YAML_ALIAS_EVENT          ? NODE_ALIAS
+                                                     : NODE_SCALAR;
     if (is_block(&rd->event)) {
         read_block(rd, node, owner);
         return node;
     }
     node->flow = node->kind == NODE_MAPPING || node->kind == NODE_SEQUENCE;
     node->braces = node->flow && begin < end && strchr("[{", rd->cursor.source->text[begin]);
-    if (begin < end || *node->props) take_comments(rd, begin, &owner->between); /* where a null is, libyaml tells by what follows */
-    if (node->flow) read_flow(rd, node, begin);
-    else read_text(rd, node, begin, end);
+    if (begin < end || *node->props)
+        take_comments(rd, begin, &owner->between); /* where a null is, libyaml tells by what follows */
+    if (node->flow)
+        read_flow(rd, node, begin);
+    else
+        read_text(rd, node, begin, end);
     rd->last = owner;
     if (!node->flow && node->size == 0 && rd->brackets == 0) {
         node->column = rd->column + 1;
@@ -283,7 +307,8 @@ static struct layout *read_document(struct reader *rd) {
         layout->preamble = source->text;
         layout->preamble_size = m->start;
         while (take_comment(rd, m->start)) continue;
-        if (rd->next && !rd->next->own_line && !has_break(rd, m->body, rd->next->at)) layout->start = take_comment(rd, SIZE_MAX);
+        if (rd->next && !rd->next->own_line && !has_break(rd, m->body, rd->next->at))
+            layout->start = take_comment(rd, SIZE_MAX);
     }
     next_event(rd); /* stream start */
     next_event(rd); /* document start */
@@ -299,7 +324,10 @@ static struct layout *read_document(struct reader *rd) {
 static struct layout *refuse_key(struct reader *rd, struct diagnostics *diag) {
     struct span span = {rd->cursor.source, 0, column_of(rd, rd->marks.odd_key), 1};
     for (size_t i = 0; i < rd->marks.odd_key; i++) span.line += span.source->text[i] == '\n';
-    diag_help(diag, diag_error(diag, span, "odd-key", "a key behind `?`, or one that is no word, has no canonical form"), "write `key: value`");
+    diag_help(
+        diag,
+        diag_error(diag, span, "odd-key", "a key behind `?`, or one that is no word, has no canonical form"),
+        "write `key: value`");
     return NULL;
 }
 

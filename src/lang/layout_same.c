@@ -11,9 +11,12 @@ static bool same_word(const yaml_char_t *a, const yaml_char_t *b) {
 }
 
 static bool same_scalar(const yaml_event_t *a, const yaml_event_t *b) {
-    const bool plain_a = a->data.scalar.style == YAML_PLAIN_SCALAR_STYLE, plain_b = b->data.scalar.style == YAML_PLAIN_SCALAR_STYLE;
-    return same_word(a->data.scalar.anchor, b->data.scalar.anchor) && same_word(a->data.scalar.tag, b->data.scalar.tag) && plain_a == plain_b &&
-           a->data.scalar.length == b->data.scalar.length && memcmp(a->data.scalar.value, b->data.scalar.value, a->data.scalar.length) == 0;
+    const bool plain_a = a->data.scalar.style == YAML_PLAIN_SCALAR_STYLE,
+               plain_b = b->data.scalar.style == YAML_PLAIN_SCALAR_STYLE;
+    return same_word(a->data.scalar.anchor, b->data.scalar.anchor) &&
+           same_word(a->data.scalar.tag, b->data.scalar.tag) && plain_a == plain_b &&
+           a->data.scalar.length == b->data.scalar.length &&
+           memcmp(a->data.scalar.value, b->data.scalar.value, a->data.scalar.length) == 0;
 }
 
 static bool same_event(const yaml_event_t *a, const yaml_event_t *b) {
@@ -22,9 +25,11 @@ static bool same_event(const yaml_event_t *a, const yaml_event_t *b) {
     case YAML_SCALAR_EVENT: return same_scalar(a, b);
     case YAML_ALIAS_EVENT: return same_word(a->data.alias.anchor, b->data.alias.anchor);
     case YAML_SEQUENCE_START_EVENT:
-        return same_word(a->data.sequence_start.anchor, b->data.sequence_start.anchor) && same_word(a->data.sequence_start.tag, b->data.sequence_start.tag);
+        return same_word(a->data.sequence_start.anchor, b->data.sequence_start.anchor) &&
+               same_word(a->data.sequence_start.tag, b->data.sequence_start.tag);
     case YAML_MAPPING_START_EVENT:
-        return same_word(a->data.mapping_start.anchor, b->data.mapping_start.anchor) && same_word(a->data.mapping_start.tag, b->data.mapping_start.tag);
+        return same_word(a->data.mapping_start.anchor, b->data.mapping_start.anchor) &&
+               same_word(a->data.mapping_start.tag, b->data.mapping_start.tag);
     default: return true;
     }
 }

@@ -12,9 +12,9 @@ struct scanner {
     struct cursor cursor;
     struct layout_marks *marks;
     struct layout_comment **tail;
-    size_t covered;   /* the end of the tokens so far */
+    size_t covered; /* the end of the tokens so far */
     size_t dash_room;
-    bool ended;       /* a `...` has been */
+    bool ended; /* a `...` has been */
 };
 
 /* ---- Comments ---- */
@@ -42,7 +42,11 @@ static size_t add_comment(struct scanner *sc, size_t at) {
     while (first < at && is_blank(source->text[first])) first++;
     while (is_blank(text[size - 1])) size--;
     struct layout_comment *c = arena_alloc(sc->arena, sizeof *c);
-    *c = (struct layout_comment){.text = text, .size = size, .at = at, .own_line = first == at || sc->ended, .blank_before = blank_line_before(source, begin)};
+    *c = (struct layout_comment){.text = text,
+                                 .size = size,
+                                 .at = at,
+                                 .own_line = first == at || sc->ended,
+                                 .blank_before = blank_line_before(source, begin)};
     for (size_t i = begin; i < at; i += source_character(source, i)) c->column++;
     *sc->tail = c;
     sc->tail = &c->next;
@@ -52,8 +56,10 @@ static size_t add_comment(struct scanner *sc, size_t at) {
 /* Comments between the tokens so far and the offset `end`. */
 static void scan_gap(struct scanner *sc, size_t end) {
     for (size_t i = sc->covered; i < end;)
-        if (sc->cursor.source->text[i] == '#') i = add_comment(sc, i);
-        else i++;
+        if (sc->cursor.source->text[i] == '#')
+            i = add_comment(sc, i);
+        else
+            i++;
 }
 
 /* The comment behind | or >. */
@@ -78,15 +84,18 @@ static void add_dash(struct scanner *sc, size_t at) {
 
 static bool is_block_scalar(const yaml_token_t *token) {
     const yaml_scalar_style_t style = token->data.scalar.style;
-    return token->type == YAML_SCALAR_TOKEN && (style == YAML_LITERAL_SCALAR_STYLE || style == YAML_FOLDED_SCALAR_STYLE);
+    return token->type == YAML_SCALAR_TOKEN &&
+           (style == YAML_LITERAL_SCALAR_STYLE || style == YAML_FOLDED_SCALAR_STYLE);
 }
 
 static void take_token(struct scanner *sc) {
     const yaml_token_t *token = &sc->token;
-    const size_t begin = cursor_move(&sc->cursor, token->start_mark.index), end = cursor_move(&sc->cursor, token->end_mark.index);
+    const size_t begin = cursor_move(&sc->cursor, token->start_mark.index),
+                 end = cursor_move(&sc->cursor, token->end_mark.index);
     if (begin > sc->covered) scan_gap(sc, begin);
     if (token->type == YAML_BLOCK_ENTRY_TOKEN) add_dash(sc, begin);
-    if (token->type == YAML_KEY_TOKEN && end > begin && sc->marks->odd_key == SIZE_MAX) sc->marks->odd_key = begin;
+    if (token->type == YAML_KEY_TOKEN && end > begin && sc->marks->odd_key == SIZE_MAX)
+        sc->marks->odd_key = begin;
     if (token->type == YAML_DOCUMENT_START_TOKEN) sc->marks->start = begin, sc->marks->body = end;
     if (token->type == YAML_DOCUMENT_END_TOKEN) sc->ended = true;
     if (is_block_scalar(token)) scan_header(sc, begin, end);
@@ -102,7 +111,8 @@ static void scan_tokens(struct scanner *sc) {
 }
 
 void layout_scan(struct arena *arena, const struct source *source, struct layout_marks *marks) {
-    struct scanner sc = {.arena = arena, .cursor = {.source = source}, .marks = marks, .tail = &marks->comments};
+    struct scanner sc = {
+        .arena = arena, .cursor = {.source = source}, .marks = marks, .tail = &marks->comments};
     *marks = (struct layout_marks){.odd_key = SIZE_MAX, .start = SIZE_MAX};
     if (!yaml_parser_initialize(&sc.parser)) longjmp(*arena->on_full, 1);
     yaml_parser_set_input_string(&sc.parser, (const unsigned char *)source->text, source->size);

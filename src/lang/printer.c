@@ -24,7 +24,8 @@ void printer_indent(struct printer *p, uint32_t column) {
 }
 
 void printer_end_line(struct printer *p, const struct layout_comment *comment) {
-    if (p->line_count == p->line_room) p->lines = grow(p->arena, p->lines, p->line_count, &p->line_room, sizeof *p->lines);
+    if (p->line_count == p->line_room)
+        p->lines = grow(p->arena, p->lines, p->line_count, &p->line_room, sizeof *p->lines);
     p->lines[p->line_count++] = (struct printer_line){p->size, p->column, comment};
     p->column = 0;
     p->fresh = false;
@@ -49,7 +50,8 @@ void printer_comments(struct printer *p, const struct layout_comment *first, uin
 static uint32_t comment_column(const struct printer *p, size_t i, size_t *end) {
     uint32_t width = 0;
     const uint32_t column = p->lines[i].comment->column;
-    for (*end = i; *end < p->line_count && p->lines[*end].comment && p->lines[*end].comment->column == column; ++*end)
+    for (*end = i; *end < p->line_count && p->lines[*end].comment && p->lines[*end].comment->column == column;
+         ++*end)
         if (p->lines[*end].width > width) width = p->lines[*end].width;
     return width + 2;
 }
@@ -71,7 +73,8 @@ char *printer_text(const struct printer *p, size_t *size) {
     uint32_t column = 0;
     for (size_t i = 0; i < p->line_count; begin = p->lines[i++].end) {
         const struct printer_line *line = &p->lines[i];
-        if (line->end > begin) to = (char *)memcpy(to, p->text + begin, line->end - begin) + (line->end - begin);
+        if (line->end > begin)
+            to = (char *)memcpy(to, p->text + begin, line->end - begin) + (line->end - begin);
         if (line->comment && i >= end) column = comment_column(p, i, &end);
         if (line->comment) {
             to = (char *)memset(to, ' ', column - line->width) + (column - line->width);

@@ -9,7 +9,7 @@ enum { LAYOUT_WIDTH = 100 /* columns, without a trailing comment */, LAYOUT_INDE
 /* A line that is done. Its text ends at `end`, and begins where the line before ends. */
 struct printer_line {
     size_t end;
-    uint32_t width; /* characters */
+    uint32_t width;                       /* characters */
     const struct layout_comment *comment; /* behind it, not in the text yet; or NULL */
 };
 
@@ -26,7 +26,7 @@ struct printer {
 
 void printer_put(struct printer *p, const char *text, size_t size);
 void printer_word(struct printer *p, const char *word);
-void printer_indent(struct printer *p, uint32_t column); /* at the start of a line */
+void printer_indent(struct printer *p, uint32_t column);                        /* at the start of a line */
 void printer_end_line(struct printer *p, const struct layout_comment *comment); /* NULL: none behind it */
 void printer_blank_line(struct printer *p, bool wanted);
 

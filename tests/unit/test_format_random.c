@@ -43,7 +43,8 @@ static void indent(int column) { spaces(column > 0 ? (unsigned)column : 0); }
 /* ---- Lines ---- */
 
 static void comment(void) {
-    static const char *const kinds[] = {"# remark %d", "#%d", "# `key: [%d, {'\"` }", "## %d ##  ", "# \xc3\xa9 %d\t"};
+    static const char *const kinds[] = {"# remark %d", "#%d", "# `key: [%d, {'\"` }", "## %d ##  ",
+                                        "# \xc3\xa9 %d\t"};
     put_number(ONE_OF(kinds), comments++);
 }
 
@@ -75,17 +76,29 @@ static void between_lines(int column) {
 static bool in_flow;
 
 static void plain(void) {
-    static const char *const words[] = {"1", "-0.5", "gold", "1e-3", "a long text of several words", "r * 2 + sin(30)", "x:y", "c#d", "\xc3\xa9t\xc3\xa9", "<", "-x"};
+    static const char *const words[] = {"1",
+                                        "-0.5",
+                                        "gold",
+                                        "1e-3",
+                                        "a long text of several words",
+                                        "r * 2 + sin(30)",
+                                        "x:y",
+                                        "c#d",
+                                        "\xc3\xa9t\xc3\xa9",
+                                        "<",
+                                        "-x"};
     put(ONE_OF(words));
 }
 
 static void quoted(int column) {
-    static const char *const words[] = {"\"#ffd700\"", "'it''s'", "\"a \\\"b\\\" \\n\"", "\"\"", "''", "\"[not, a: list] # nor a comment\""};
+    static const char *const words[] = {"\"#ffd700\"", "'it''s'", "\"a \\\"b\\\" \\n\"",
+                                        "\"\"",        "''",      "\"[not, a: list] # nor a comment\""};
     if (once_in(6)) {
         put(once_in(2) ? "\"two  \n\n" : "\"two \\  \n");
         indent(column + 1 + (int)below(5));
         put("lines\"");
-    } else put(ONE_OF(words));
+    } else
+        put(ONE_OF(words));
 }
 
 static void flow(int column, int depth);
@@ -110,7 +123,8 @@ static void flow_break(int column) {
             put("\n");
         }
         indent(column + 1 + (int)below(7));
-    } else spaces(below(3));
+    } else
+        spaces(below(3));
 }
 
 static void flow_value(int column, int depth) {
@@ -121,9 +135,12 @@ static void flow_value(int column, int depth) {
         return;
     }
     prop();
-    if (kind < 4) plain();
-    else if (kind < 5) quoted(column);
-    else flow(column, depth - 1);
+    if (kind < 4)
+        plain();
+    else if (kind < 5)
+        quoted(column);
+    else
+        flow(column, depth - 1);
 }
 
 static void flow_key(int column) {
@@ -200,7 +217,8 @@ static void value(int column, int depth, bool item) {
         end_line();
         between_lines(column + 1);
         indent(column + 1 + (int)below(4));
-    } else spaces(1 + below(2));
+    } else
+        spaces(1 + below(2));
     if (anchors > 0 && once_in(10)) {
         put_number("*a%d", (int)below((unsigned)anchors));
         end_line();
@@ -211,9 +229,12 @@ static void value(int column, int depth, bool item) {
         block_scalar(column);
         return;
     }
-    if (kind < 4) plain();
-    else if (kind == 4) quoted(column);
-    else flow(column, 3);
+    if (kind < 4)
+        plain();
+    else if (kind == 4)
+        quoted(column);
+    else
+        flow(column, 3);
     if (kind == 2 && once_in(3)) {
         put("\n");
         while (once_in(4)) put("\n");
@@ -256,7 +277,8 @@ static void make_text(void) {
     if (once_in(20)) {
         flow(0, 4);
         end_line();
-    } else block((int)below(3), 4);
+    } else
+        block((int)below(3), 4);
     between_lines(4);
     if (once_in(10)) put("...\n");
     if (once_in(10) && size > 0) size--;
@@ -264,13 +286,16 @@ static void make_text(void) {
 
 /* ---- What must hold ---- */
 
-static char *format(struct arena *arena, struct diagnostics *diag, const char *bytes, size_t count, size_t *formatted) {
+static char *format(struct arena *arena, struct diagnostics *diag, const char *bytes, size_t count,
+                    size_t *formatted) {
     static const struct lang_limits limits = {100, 1000000};
     return format_text(arena, diag, file_from_memory(arena, "t", bytes, count), &limits, formatted);
 }
 
-static void fail_text(const char *why, const struct diagnostics *diag, const char *first, const char *second) {
-    printf("---- the text\n%.*s---- formatted\n%s---- again\n%s----\n", (int)size, text, first ? first : "", second ? second : "");
+static void fail_text(const char *why, const struct diagnostics *diag, const char *first,
+                      const char *second) {
+    printf("---- the text\n%.*s---- formatted\n%s---- again\n%s----\n", (int)size, text, first ? first : "",
+           second ? second : "");
     diag_print(diag, stdout);
     fail_msg("%s", why);
 }
