@@ -11,7 +11,7 @@ static void *grow(struct arena *arena, void *old, size_t count, size_t *room, si
 
 void printer_put(struct printer *p, const char *text, size_t size) {
     for (size_t i = 0; i < size; i++) p->column += ((unsigned char)text[i] & 0xc0) != 0x80;
-    if (p->probing) return;
+    if (p->probing || size == 0) return;
     while (p->room - p->size < size) p->text = grow(p->arena, p->text, p->size, &p->room, 1);
     memcpy(p->text + p->size, text, size);
     p->size += size;
