@@ -13,6 +13,7 @@
 #include "image/replace.h"
 #include "lang/file.h"
 #include "lang/import.h"
+#include "lang/format.h"
 #include "lang/lang.h"
 #include "lang/stories.h"
 #include "render/render.h"
@@ -247,6 +248,65 @@ bool monge_import(const char *path, const char *out_path, const struct monge_lim
     }
     arena_free(&arena);
     return done;
+}
+
+/* ---- Formatting ---- */
+
+void monge_text_free(struct monge_text *text) {
+    free(text->bytes);
+    *text = (struct monge_text){NULL, 0};
+}
+
+/* Reads `path`, or formats `given` where there is no path; the result is in the arena, NULL reported. */
+static const char *read_or_format(struct arena *arena, struct diagnostics *diag, const struct monge_limits *limits, const char *path,
+                                  const char *name, const struct monge_text *given, size_t *size) {
+    if (!path) {
+        const struct lang_limits within = lang_limits(limits);
+        return format_text(arena, diag, file_from_memory(arena, name, given->bytes, given->size), &within, size);
+    }
+    const struct source *source = file_read_bytes(arena, diag, path, limits->file_bytes);
+    *size = source ? source->size : 0;
+    return source ? source->text : NULL;
+}
+
+/* The same as a text of its own. */
+static bool make_text(struct diagnostics *diag, const struct monge_limits *given_limits, const char *path, const char *name,
+                      const struct monge_text *given, struct monge_text *made) {
+    const struct monge_limits limits = effective_limits(given_limits);
+    struct arena arena = {.limit = limits.memory_bytes};
+    jmp_buf full;
+    size_t size = 0;
+    *made = (struct monge_text){NULL, 0};
+    arena.on_full = &full;
+    if (setjmp(full) == 0) {
+        const char *text = read_or_format(&arena, diag, &limits, path, name, given, &size);
+        if (text) *made = (struct monge_text){malloc(size + 1), size};
+        if (made->bytes) ((char *)memcpy(made->bytes, text, size))[size] = '\0';
+        if (text && !made->bytes) diag_failure(diag, "out-of-memory", "%s: out of memory", name);
+    } else {
+        diag_failure(diag, "limit-memory", "%s: takes more memory than there is, or than %zu bytes (the limit `memory_bytes`)", name, limits.memory_bytes);
+    }
+    arena_free(&arena);
+    return made->bytes != NULL;
+}
+
+bool monge_text_read(const char *path, const struct monge_limits *limits, struct monge_text *text, struct monge_diagnostics *diag) {
+    return make_text(&diag->list, limits, path, path, NULL, text);
+}
+
+bool monge_format(const char *name, const struct monge_text *text, const struct monge_limits *limits, struct monge_text *formatted,
+                  struct monge_diagnostics *diag) {
+    return make_text(&diag->list, limits, NULL, name, text, formatted);
+}
+
+bool monge_text_write(const char *path, const struct monge_text *text, struct monge_diagnostics *diag) {
+    struct replacement file;
+    if (replace_begin(&file, path)) {
+        fwrite(text->bytes, 1, text->size, file.stream);
+        if (replace_commit(&file)) return true;
+    }
+    diag_failure(&diag->list, "cannot-write", "cannot write %s: %s", path, strerror(errno));
+    return false;
 }
 
 /* ---- Settings ---- */

@@ -114,6 +114,28 @@ bool monge_scene_prepare(struct monge_scene *scene);
  * warnings. limits may be NULL. False: diag says why, monge_diagnostics_failures which of the two. */
 bool monge_import(const char *path, const char *out_path, const struct monge_limits *limits, struct monge_diagnostics *diag);
 
+/* ---- Formatting: the text of a scene in the canonical style ---- */
+
+/* Bytes that the caller frees with monge_text_free, and only where a function says that it made them. */
+struct monge_text {
+    char *bytes; /* with a final zero after `size` bytes */
+    size_t size;
+};
+void monge_text_free(struct monge_text *text);
+
+/* Reads all bytes of a file; "-" is standard input. False, a failure in diag, when it cannot be read. */
+bool monge_text_read(const char *path, const struct monge_limits *limits, struct monge_text *text, struct monge_diagnostics *diag);
+
+/* Writes a file, which appears complete under its name or stays as it was, with its permissions; symbolic
+ * links are followed; "-" is standard output. False, a failure in diag, when it cannot be written. */
+bool monge_text_write(const char *path, const struct monge_text *text, struct monge_diagnostics *diag);
+
+/* Lays a scene out in the canonical style: the same values, the same comments in the same order. The
+ * scene must be YAML, but may be wrong otherwise. To format the result changes nothing. False, with the
+ * reason in diag, when it is not YAML. *formatted is made by the function, for the caller to free. */
+bool monge_format(const char *name, const struct monge_text *text, const struct monge_limits *limits, struct monge_text *formatted,
+                  struct monge_diagnostics *diag);
+
 /* ---- Settings: what an author writes in the file and a user may override ---- */
 
 enum monge_shading {

@@ -109,7 +109,7 @@ exits 0 --help; out_has 'usage: monge COMMAND'; out_has 'render SCENE...'; no_er
 exits 0 -h; out_has 'usage: monge COMMAND'
 exits 0 help; out_has 'usage: monge COMMAND'
 exits 2; err_has 'usage: monge COMMAND'; no_out
-for command in render check explain import help; do
+for command in render check fmt explain import help; do
     exits 0 help $command; out_has "usage: monge $command"
     cp out expected
     exits 0 $command --help; ok "$command --help is help $command" cmp out expected
@@ -122,7 +122,7 @@ exits 2 help rendre; err_has 'did you mean `render`?'
 exits 2 help render check; err_has 'help: expected one command'
 
 exits 0 help --man; out_has '.TH MONGE 1'; out_has '.SH EXIT STATUS'
-for option in output size samples region shading shadow no\\-shadows depth bits encoding threads stats progress format quiet; do
+for option in output size samples region shading shadow no\\-shadows depth bits encoding threads stats progress format check quiet; do
     out_has "\\-\\-$option"
 done
 have man && ok "the manual page has no roff warnings" [ -z "$(LC_ALL=C.UTF-8 man --warnings -l out 2>&1 >/dev/null)" ]
@@ -149,6 +149,7 @@ exits 2 xyzzy; err_has 'no command `xyzzy`'; ok "nothing is near xyzzy" sh -c '!
 exits 2 $'\033[31m'; ok "no control characters" sh -c '! grep -q "$(printf "\033")" err'
 exits 2 render; err_has 'render: no scene given'; err_has 'see `monge help render`'
 exits 2 check; err_has 'check: no scene given'
+exits 2 fmt; err_has 'fmt: no scene given'
 exits 2 render one.yaml --sample 2; err_has 'no option `--sample`; did you mean `--samples`?'
 exits 2 render one.yaml --thr 2; err_has 'did you mean `--threads`?'
 exits 2 render one.yaml --szie=4x4; err_has 'no option `--szie`; did you mean `--size`?'

@@ -4,6 +4,7 @@
 
 #include "cli/check.h"
 #include "cli/explain.h"
+#include "cli/fmt.h"
 #include "cli/help.h"
 #include "cli/import.h"
 #include "cli/options.h"
@@ -15,6 +16,7 @@
 #define IN_NONE    (1u << COMMAND_NONE)
 #define IN_RENDER  (1u << COMMAND_RENDER)
 #define IN_CHECK   (1u << COMMAND_CHECK)
+#define IN_FMT     (1u << COMMAND_FMT)
 #define IN_EXPLAIN (1u << COMMAND_EXPLAIN)
 #define IN_IMPORT  (1u << COMMAND_IMPORT)
 #define IN_HELP    (1u << COMMAND_HELP)
@@ -49,7 +51,9 @@ const struct option_row OPTION_TABLE[OPTIONS] = {
                          "show a progress bar; auto: where standard error is a terminal"},
     [OPTION_FORMAT] = {"format", 0, VALUE_CHOICE, IN_RENDER | IN_CHECK, "text|json|sarif", 0, 0,
                        "how to report what is wrong: for people, or as one document for programs"},
-    [OPTION_QUIET] = {"quiet", 'q', VALUE_NONE, IN_RENDER | IN_CHECK, NULL, 0, 0,
+    [OPTION_CHECK_ONLY] = {"check", 0, VALUE_NONE, IN_FMT, NULL, 0, 0,
+                           "write nothing; list what is not formatted, exit status 1 if any"},
+    [OPTION_QUIET] = {"quiet", 'q', VALUE_NONE, IN_RENDER | IN_CHECK | IN_FMT, NULL, 0, 0,
                       "report nothing but what is wrong"},
     [OPTION_MAN] = {"man", 0, VALUE_NONE, IN_HELP, NULL, 0, 0, "print the manual page, as roff"},
     [OPTION_COMPLETION] = {"completion", 0, VALUE_CHOICE, IN_HELP, "bash|zsh|fish", 0, 0,
@@ -61,7 +65,7 @@ const struct option_row OPTION_TABLE[OPTIONS] = {
 
 const char *const STATUS_DOC[] = {
     [STATUS_YES] = "all is well",
-    [STATUS_NO] = "a scene is wrong; the others have still been dealt with",
+    [STATUS_NO] = "a scene is wrong, or not formatted (fmt --check); the others have still been dealt with",
     [STATUS_TROUBLE] = "trouble: wrong usage, a file that cannot be read or written, no memory",
 };
 
@@ -150,6 +154,24 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                          {"monge import cover.yml | monge render - -o cover.png", "straight to a picture"}},
             .needs_operand = true,
             .run = import_command,
+        },
+    [COMMAND_FMT] =
+        {
+            .name = "fmt",
+            .operands = "SCENE...",
+            .doc = "lay scenes out in the canonical style",
+            .text = {"Rewrites each scene with two spaces a level, one space after `:` and `,`, at most "
+                     "one blank line, and lists and mappings in brackets that do not fit into 100 columns "
+                     "as blocks. Values, comments and the order of keys stay as they are; quotes and "
+                     "numbers are kept as written. A scene need not be right, but must be YAML.",
+                     "A file that is formatted is not touched; another one is replaced as a whole. With "
+                     "--check nothing is written, and the files that are not formatted are listed on "
+                     "standard output. The scene - is standard input, and goes to standard output."},
+            .examples = {{"monge fmt scenes/*.yaml", "in place"},
+                         {"monge fmt --check scenes/*.yaml", "a step of a build: 1 where something is not formatted"},
+                         {"monge fmt - < king.yaml | diff king.yaml -", "what it would change"}},
+            .needs_operand = true,
+            .run = fmt_command,
         },
     [COMMAND_HELP] =
         {

@@ -10,7 +10,16 @@
 /* As diff(1) has them; of several, the highest counts. */
 enum status { STATUS_YES, STATUS_NO /* a scene is wrong */, STATUS_TROUBLE /* usage, files, system */ };
 
-enum command_id { COMMAND_NONE /* monge itself */, COMMAND_RENDER, COMMAND_CHECK, COMMAND_EXPLAIN, COMMAND_IMPORT, COMMAND_HELP, COMMANDS };
+enum command_id {
+    COMMAND_NONE, /* monge itself */
+    COMMAND_RENDER,
+    COMMAND_CHECK,
+    COMMAND_FMT,
+    COMMAND_EXPLAIN,
+    COMMAND_IMPORT,
+    COMMAND_HELP,
+    COMMANDS
+};
 
 enum option_id {
     OPTION_OUTPUT,
@@ -28,6 +37,7 @@ enum option_id {
     OPTION_STATS,
     OPTION_PROGRESS,
     OPTION_FORMAT,
+    OPTION_CHECK_ONLY,
     OPTION_QUIET,
     OPTION_MAN,
     OPTION_COMPLETION,

@@ -1,4 +1,4 @@
-/* From libyaml's events to nodes: the only place that includes yaml.h. */
+/* From libyaml's events to nodes. */
 #include <string.h>
 #include <yaml.h>
 
