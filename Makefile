@@ -39,7 +39,7 @@ endif
 SOURCES := $(wildcard $(STATIONS:%=src/%/*.c)) $(FACE)
 UNIT := $(wildcard tests/unit/test_*.c)
 ifneq ($(filter lang,$(STATIONS)),)
-GRAMMAR := $(BUILD)/gen/grammar_tables
+GRAMMAR := $(BUILD)/gen/grammar_tables $(BUILD)/gen/grammar_schema
 endif
 
 object = $(patsubst %.c,$(BUILD)/obj/%.o,$(1))
@@ -110,12 +110,13 @@ coverage: deps ## the tests with gcc's line coverage, per file of src/; fails be
 bench: all ## time scenes/report/final.yaml at 1024x1024
 	@tools/bench $(BUILD)/monge
 
-reference: ## make grammar/reference.md anew from grammar/*.yaml
+reference: ## make grammar/reference.md and scene.schema.json anew from grammar/*.yaml
 	+@$(SUBMAKE) $(BUILD)/tools/grammar
 	$(BUILD)/tools/grammar reference grammar grammar/reference.md
+	$(BUILD)/tools/grammar schema grammar grammar/scene.schema.json
 
 format: ## lay out the code by .clang-format, where clang-format is installed
-	@if command -v clang-format >/dev/null; then clang-format -i $(wildcard src/*.[ch] src/*/*.[ch] tests/unit/*.[ch] tools/*.c); \
+	@if command -v clang-format >/dev/null; then clang-format -i $(wildcard src/*.[ch] src/*/*.[ch] tests/unit/*.[ch] tools/grammar/*.[ch]); \
 	 else echo "format: clang-format is not installed"; fi
 
 lint: ## compile everything with warnings as errors, with clang too
@@ -145,8 +146,8 @@ BASH_COMPLETION = $(SHARE)/bash-completion/completions/monge
 ZSH_COMPLETION = $(SHARE)/zsh/site-functions/_monge
 FISH_COMPLETION = $(SHARE)/fish/vendor_completions.d/monge.fish
 
-install: all ## to PREFIX (under DESTDIR): program, library, manual page, completions, documents
-	mkdir -p $(BIN) $(LIB)/pkgconfig $(INCLUDE) $(SHARE)/man/man1 $(SHARE)/doc/monge \
+install: all ## to PREFIX (under DESTDIR): program, library, manual page, completions, schema, documents
+	mkdir -p $(BIN) $(LIB)/pkgconfig $(INCLUDE) $(SHARE)/man/man1 $(SHARE)/doc/monge $(SHARE)/monge \
 	    $(dir $(BASH_COMPLETION) $(ZSH_COMPLETION) $(FISH_COMPLETION))
 	install -m 755 $(BUILD)/monge $(BIN)/monge
 	install -m 644 $(BUILD)/libmonge.a $(LIB)/libmonge.a
@@ -159,11 +160,12 @@ install: all ## to PREFIX (under DESTDIR): program, library, manual page, comple
 	$(BUILD)/monge help --completion zsh > $(ZSH_COMPLETION)
 	$(BUILD)/monge help --completion fish > $(FISH_COMPLETION)
 	install -m 644 $(DOCS) $(SHARE)/doc/monge
+	install -m 644 grammar/scene.schema.json $(SHARE)/monge/scene.schema.json
 
 uninstall: ## remove what install put there
 	rm -f $(BIN)/monge $(LIB)/libmonge.a $(LIB)/pkgconfig/monge.pc $(INCLUDE)/monge.h $(SHARE)/man/man1/monge.1 \
 	    $(BASH_COMPLETION) $(ZSH_COMPLETION) $(FISH_COMPLETION)
-	rm -rf $(SHARE)/doc/monge
+	rm -rf $(SHARE)/doc/monge $(SHARE)/monge
 
 # ---- How it is made ----
 
@@ -191,7 +193,7 @@ $(BUILD)/tests/%: $(BUILD)/obj/tests/unit/%.o $(BUILD)/libmonge.a
 	$(call say,link,$@)
 	$(QUIET)$(LINK) -o $@ $^ -lcmocka $(LIBS)
 
-$(BUILD)/tools/grammar: $(BUILD)/obj/tools/grammar.o $(TOOL_OBJECTS)
+$(BUILD)/tools/grammar: $(call object,$(wildcard tools/grammar/*.c)) $(TOOL_OBJECTS)
 	@mkdir -p $(@D)
 	$(call say,link,$@)
 	$(QUIET)$(LINK) -o $@ $^ $(LIBS)
@@ -206,8 +208,13 @@ $(BUILD)/gen/grammar_tables.c: $(BUILD)/tools/grammar $(wildcard grammar/*.yaml)
 	$(call say,gen,$@)
 	$(QUIET)$< tables grammar $@
 
+$(BUILD)/gen/grammar_schema.c: $(BUILD)/tools/grammar $(wildcard grammar/*.yaml)
+	@mkdir -p $(@D)
+	$(call say,gen,$@)
+	$(QUIET)$< schema-source grammar $@
+
 # The header comes before any object may need it; after that the .d files know which do.
-$(filter-out $(TOOL_OBJECTS),$(OBJECTS) $(CLI_OBJECTS)) $(call object,$(UNIT)): | $(GRAMMAR:%=%.h)
+$(filter-out $(TOOL_OBJECTS),$(OBJECTS) $(CLI_OBJECTS)) $(call object,$(UNIT)): | $(firstword $(GRAMMAR:%=%.h))
 
 $(BUILD)/obj/%.o: %.c $(BUILD)/flags
 	@mkdir -p $(@D)

@@ -109,7 +109,7 @@ exits 0 --help; out_has 'usage: monge COMMAND'; out_has 'render SCENE...'; no_er
 exits 0 -h; out_has 'usage: monge COMMAND'
 exits 0 help; out_has 'usage: monge COMMAND'
 exits 2; err_has 'usage: monge COMMAND'; no_out
-for command in render check help; do
+for command in render check schema help; do
     exits 0 help $command; out_has "usage: monge $command"
     cp out expected
     exits 0 $command --help; ok "$command --help is help $command" cmp out expected
@@ -119,7 +119,7 @@ exits 0 help render; out_has '--samples N'; out_has '(1 to 65536)'
 ok "help fits 80 columns" [ -z "$(grep -E '.{81}' out)" ]
 exits 0 render no-such-file.yaml --samples 3 --help; out_has 'usage: monge render'
 exits 2 help rendre; err_has 'did you mean `render`?'
-exits 2 help render check; err_has 'help: expected one command'
+exits 2 help render check; err_has 'help: expected one word'
 
 exits 0 help --man; out_has '.TH MONGE 1'; out_has '.SH EXIT STATUS'
 for option in output size samples region shading shadow no\\-shadows depth bits encoding threads stats progress quiet; do

@@ -7,12 +7,14 @@
 #include "cli/options.h"
 #include "cli/render.h"
 #include "cli/say.h"
+#include "cli/schema.h"
 #include "cli/suggest.h"
 #include "monge.h"
 
 #define IN_NONE   (1u << COMMAND_NONE)
 #define IN_RENDER (1u << COMMAND_RENDER)
 #define IN_CHECK  (1u << COMMAND_CHECK)
+#define IN_SCHEMA (1u << COMMAND_SCHEMA)
 #define IN_HELP   (1u << COMMAND_HELP)
 
 /* The words of a choice stand in the order of the enum that they become. */
@@ -45,7 +47,7 @@ const struct option_row OPTION_TABLE[OPTIONS] = {
     [OPTION_MAN] = {"man", 0, VALUE_NONE, IN_HELP, NULL, 0, 0, "print the manual page, as roff"},
     [OPTION_COMPLETION] = {"completion", 0, VALUE_CHOICE, IN_HELP, "bash|zsh|fish", 0, 0,
                            "print the completion script of a shell"},
-    [OPTION_HELP] = {"help", 'h', VALUE_NONE, IN_NONE | IN_RENDER | IN_CHECK | IN_HELP, NULL, 0, 0,
+    [OPTION_HELP] = {"help", 'h', VALUE_NONE, IN_NONE | IN_RENDER | IN_CHECK | IN_SCHEMA | IN_HELP, NULL, 0, 0,
                      "show this help"},
     [OPTION_VERSION] = {"version", 0, VALUE_NONE, IN_NONE, NULL, 0, 0, "show the version"},
 };
@@ -101,14 +103,29 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
             .needs_operand = true,
             .run = check_command,
         },
+    [COMMAND_SCHEMA] =
+        {
+            .name = "schema",
+            .operands = "",
+            .doc = "print the JSON Schema of scenes, for editors",
+            .text = {"Prints what editors and validators need to complete, explain and check scenes, as "
+                     "JSON Schema, draft-07. It knows the keys, the types and the ranges; `monge check` "
+                     "knows what the names and the values mean as well."},
+            .examples = {{"monge schema > scene.schema.json",
+                          "for `# yaml-language-server: $schema=scene.schema.json` in a scene"}},
+            .run = schema_command,
+        },
     [COMMAND_HELP] =
         {
             .name = "help",
-            .operands = "[COMMAND]",
-            .doc = "tell how to use monge or one of its commands",
-            .text = {"Without a command: what there is. The manual page and the completion scripts "
-                     "come from the same table as this text."},
+            .operands = "[COMMAND|WORD]",
+            .doc = "tell how to use monge, or what a word of a scene means",
+            .text = {"Without a word: what there is. The manual page and the completion scripts come "
+                     "from the same table as this text. A word is any that a scene may have as a key, "
+                     "or the kind of one of its mappings; `language` gives them all."},
             .examples = {{"monge help render", "the options of render"},
+                         {"monge help language", "a scene to begin with, and the kinds of mappings"},
+                         {"monge help material", "the keys of a material, with types and defaults"},
                          {"source <(monge help --completion bash)", "completion in this shell"}},
             .run = help_command,
         },

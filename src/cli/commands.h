@@ -10,7 +10,7 @@
 /* As diff(1) has them; of several, the highest counts. */
 enum status { STATUS_YES, STATUS_NO /* a scene is wrong */, STATUS_TROUBLE /* usage, files, system */ };
 
-enum command_id { COMMAND_NONE /* monge itself */, COMMAND_RENDER, COMMAND_CHECK, COMMAND_HELP, COMMANDS };
+enum command_id { COMMAND_NONE /* monge itself */, COMMAND_RENDER, COMMAND_CHECK, COMMAND_SCHEMA, COMMAND_HELP, COMMANDS };
 
 enum option_id {
     OPTION_OUTPUT,
@@ -63,7 +63,7 @@ struct example {
 
 struct command_row {
     const char *name;
-    const char *operands;       /* "SCENE..." */
+    const char *operands;       /* "SCENE...", "" */
     const char *doc;            /* no capital, no full stop */
     const char *text[8];        /* paragraphs, up to a NULL */
     struct example examples[8]; /* up to a NULL */
