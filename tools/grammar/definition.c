@@ -150,14 +150,17 @@ const char *upper(const char *text) {
     return copy;
 }
 
+const char *row_text(const struct node *row) {
+    char *text = "[";
+    for (const struct node *item = row->first; item; item = item->next)
+        text = format("%s%s%s", text, item->text, item->next ? ", " : "]");
+    return text;
+}
+
 const char *default_text(const struct node *key) {
     const struct node *value = get(key, "default");
     if (!value) return text_of(key, "defaults_to");
-    if (value->kind == NODE_SCALAR) return value->text;
-    char *text = "[";
-    for (const struct node *item = value->first; item; item = item->next)
-        text = format("%s%s%s", text, item->text, item->next ? ", " : "]");
-    return text;
+    return value->kind == NODE_SCALAR ? value->text : row_text(value);
 }
 
 static const char *choices_text(const struct node *key) {

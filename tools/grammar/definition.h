@@ -41,6 +41,9 @@ const char *type_text(const struct node *key, bool links);
 /* "over 0, scene units"; "" where everything goes. */
 const char *range_text(const struct node *key);
 
+/* A sequence of scalars: "[0, 0, 1]". */
+const char *row_text(const struct node *row);
+
 /* A default as people write it: `[0, 0, 1]`, `8`, `srgb`, or words for it. NULL: none. */
 const char *default_text(const struct node *key);
 

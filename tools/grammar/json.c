@@ -86,3 +86,13 @@ void json_node(struct json *j, const struct node *node) {
     }
     json_close(j, mapping ? '}' : ']');
 }
+
+void json_pair(struct json *j, const char *key, const char *text) {
+    json_key(j, key);
+    json_text(j, text);
+}
+
+void json_field(struct json *j, const char *key, const char *json) {
+    json_key(j, key);
+    json_raw(j, json);
+}

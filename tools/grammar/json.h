@@ -23,4 +23,8 @@ void json_text(struct json *j, const char *text);
 void json_raw(struct json *j, const char *json);         /* a value that is JSON already */
 void json_node(struct json *j, const struct node *node); /* a value of YAML */
 
+/* A field of an object at once. */
+void json_pair(struct json *j, const char *key, const char *text);
+void json_field(struct json *j, const char *key, const char *json); /* a value that is JSON already */
+
 #endif

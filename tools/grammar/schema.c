@@ -11,38 +11,95 @@
 #include <string.h>
 
 #include "definition.h"
-#include "json.h"
+#include "schema.h"
 
-static void write_pair(struct json *j, const char *key, const char *text) {
-    json_key(j, key);
-    json_text(j, text);
-}
+static const struct node *types; /* of the definition */
 
-static void write_raw(struct json *j, const char *key, const char *json) {
-    json_key(j, key);
-    json_raw(j, json);
-}
-
-static const char *reference_to(const char *definition) {
+const char *reference_to(const char *definition) {
     return format("{\"$ref\": \"#/definitions/%s\"}", definition);
 }
 
-static void write_all_of(struct json *j, const char *definition) {
-    write_raw(j, "allOf", format("[%s]", reference_to(definition)));
+/* The values of types.yaml. Editors look at the key's own `type` for what to insert. */
+static void write_shared(struct json *j, const char *type) {
+    const struct node *allowed = get(get(types, type), "type");
+    if (allowed) {
+        json_key(j, "type");
+        json_node(j, allowed);
+    }
+    json_field(j, "allOf", format("[%s]", reference_to(type)));
 }
 
 /* A word may stand for it. */
 static void write_word(struct json *j, const char *what) {
-    write_pair(j, "pattern", "^[A-Za-z_][A-Za-z0-9_]*$");
-    write_pair(j, "patternErrorMessage", format("not %s, and not a name", what));
+    json_pair(j, "pattern", "^[A-Za-z_][A-Za-z0-9_]*$");
+    json_pair(j, "patternErrorMessage", format("not %s, and not a name", what));
+}
+
+/* ---- What people read ---- */
+
+static bool has_mapping(const struct node *node) {
+    bool found = node->kind == NODE_MAPPING;
+    for (const struct node *item = node->kind == NODE_SEQUENCE ? node->first : NULL; item; item = item->next)
+        found |= has_mapping(item);
+    return found;
+}
+
+/* The example's value, where the example is `key: value`. NULL: none, or one that is no help where editors
+ * make a template of it. */
+static const struct node *example_value(const char *name, const struct node *key) {
+    const struct node *example = get(key, "example") ? parse_text(text_of(key, "example")) : NULL;
+    const struct node *value = example && example->kind == NODE_MAPPING ? get(example, name) : NULL;
+    return value && !has_mapping(value) ? value : NULL;
+}
+
+/* A row is better written in one line than as editors would. */
+static void write_snippet(struct json *j, const struct node *row) {
+    if (!row || row->kind != NODE_SEQUENCE) return;
+    char *text = "";
+    int stop = 0;
+    for (const struct node *item = row->first; item; item = item->next) {
+        if (item->kind != NODE_SCALAR) return;
+        text = format("%s%s${%d:%s}", text, stop ? ", " : "", stop + 1, item->text);
+        stop++;
+    }
+    json_key(j, "defaultSnippets");
+    json_open(j, '[');
+    json_open(j, '{');
+    json_pair(j, "label", row_text(row));
+    json_pair(j, "body", format("[%s]", text));
+    json_close(j, '}');
+    json_close(j, ']');
+}
+
+static void write_docs(struct json *j, const char *name, const struct node *key) {
+    const char *range = range_text(key), *otherwise = default_text(key);
+    const struct node *example = example_value(name, key);
+    json_pair(j, "description", text_of(key, "doc"));
+    const char *facts = format("*%s*%s%s%s", type_text(key, false), *range ? ", " : "", range,
+                               otherwise                  ? format("; default: %s", otherwise)
+                               : is_true(key, "required") ? "; must be given"
+                                                          : "");
+    const char *shown =
+        get(key, "example") && !example ? format("\n\nExample: `%s`", text_of(key, "example")) : "";
+    json_pair(j, "markdownDescription", format("%s\n\n%s%s", text_of(key, "doc"), facts, shown));
+    if (get(key, "default")) {
+        json_key(j, "default");
+        json_node(j, get(key, "default"));
+    }
+    write_snippet(j, get(key, "default") ? get(key, "default") : example);
+    if (!example) return;
+    json_key(j, "examples");
+    json_open(j, '[');
+    json_node(j, example);
+    json_close(j, ']');
 }
 
 /* ---- Values by the type of their key ---- */
 
 static void write_limits(struct json *j, const struct node *key) {
     const char *min = text_of(key, "min"), *max = text_of(key, "max");
-    if (min) write_raw(j, is_true(key, "above") ? "exclusiveMinimum" : "minimum", min);
-    if (max) write_raw(j, "maximum", max);
+    if (min) json_field(j, is_true(key, "above") ? "exclusiveMinimum" : "minimum", min);
+    if (max) json_field(j, "maximum", max);
 }
 
 static bool only_digits(const struct node *words) {
@@ -52,7 +109,7 @@ static bool only_digits(const struct node *words) {
 }
 
 /* A choice like 8 may be written as a number or as a text. */
-static void write_enum(struct json *j, const struct node *choices) {
+void write_enum(struct json *j, const struct node *choices) {
     json_key(j, "enum");
     json_open(j, '[');
     if (only_digits(choices))
@@ -72,10 +129,8 @@ static void write_choice(struct json *j, const struct node *key) {
 }
 
 static void write_number(struct json *j, const struct node *key) {
-    const char *type = text_of(key, "type");
-    write_raw(j, "type", format("[\"%s\", \"string\", \"object\"]", type));
     write_limits(j, key);
-    write_all_of(j, type);
+    write_shared(j, text_of(key, "type"));
 }
 
 static void write_size(struct json *j, const struct node *key) {
@@ -83,65 +138,67 @@ static void write_size(struct json *j, const struct node *key) {
     json_open(j, '{');
     write_limits(j, key);
     json_close(j, '}');
-    write_all_of(j, "size");
+    write_shared(j, "size");
 }
 
-/* A mapping of another kind than keyframes may stand for some. Bytes are what people paste. */
+/* A mapping of another kind than keyframes may stand for some. */
 static void write_color(struct json *j, const struct node *key) {
-    if (get(key, "max"))
-        write_raw(j, "not",
-                  "{\"type\": \"array\", \"items\": {\"type\": \"integer\", \"maximum\": 255}, "
-                  "\"contains\": {\"type\": \"integer\", \"minimum\": 3}}");
-    if (!get(key, "of")) {
-        write_all_of(j, "color");
-        return;
-    }
-    write_raw(j, "if", "{\"type\": \"object\", \"not\": {\"required\": [\"keys\"]}}");
-    write_raw(j, "then", reference_to(text_of(key, "of")));
-    write_raw(j, "else", reference_to("color"));
+    const char *color = reference_to("color");
+    if (get(key, "max")) color = format("%s, %s", reference_to("no_bytes"), color);
+    if (get(key, "of"))
+        color = format("{\"if\": {\"type\": \"object\", \"not\": {\"required\": [\"keys\"]}}, \"then\": %s, "
+                       "\"else\": {\"allOf\": [%s]}}",
+                       reference_to(text_of(key, "of")), color);
+    json_field(j, "type", "[\"array\", \"string\", \"object\"]");
+    json_field(j, "allOf", format("[%s]", color));
 }
 
-static void write_object(struct json *j, const struct node *key) {
+static void write_object(struct json *j, const char *name, const struct node *key) {
     const char *kind = text_of(key, "of");
     if (!is_true(key, "named")) {
-        write_pair(j, "$ref", format("#/definitions/%s", kind));
+        json_pair(j, "$ref", format("#/definitions/%s", kind));
         return;
     }
-    write_raw(j, "if", "{\"type\": [\"string\", \"number\", \"boolean\"]}");
-    write_raw(j, "then", reference_to("name"));
-    write_raw(j, "else", reference_to(kind));
+    json_field(j, "type", "[\"object\", \"string\", \"number\", \"boolean\"]");
+    json_field(j, "if", "{\"type\": \"object\"}");
+    json_key(j, "then");
+    json_open(j, '{');
+    write_docs(j, name, key); /* else the kind's are shown */
+    json_pair(j, "$ref", format("#/definitions/%s", kind));
+    json_close(j, '}');
+    json_field(j, "else", reference_to("name"));
 }
 
 static void write_list(struct json *j, const struct node *key) {
     const bool single = is_true(key, "single");
     const char *item = reference_to(text_of(key, "of"));
-    write_raw(j, "type", single ? "[\"array\", \"object\", \"string\"]" : "[\"array\", \"string\"]");
+    json_field(j, "type", single ? "[\"array\", \"object\", \"string\"]" : "[\"array\", \"string\"]");
     write_word(j, "a list");
-    write_raw(j, "items", item);
+    json_field(j, "items", item);
     if (!single) return;
-    write_raw(j, "if", "{\"type\": \"object\"}");
-    write_raw(j, "then", item);
+    json_field(j, "if", "{\"type\": \"object\"}");
+    json_field(j, "then", item);
 }
 
 static void write_map(struct json *j, const struct node *key) {
-    write_raw(j, "type", "\"object\"");
-    write_raw(j, "additionalProperties", reference_to(text_of(key, "of")));
+    json_field(j, "type", "\"object\"");
+    json_field(j, "additionalProperties", reference_to(text_of(key, "of")));
 }
 
 /* A parameter's default alone, or a mapping that has it. */
 static void write_values(struct json *j, const struct node *key) {
     if (get(key, "of"))
-        write_raw(j, "additionalProperties",
-                  format("{\"if\": {\"type\": \"object\", \"required\": [\"default\"]}, \"then\": %s}",
-                         reference_to(text_of(key, "of"))));
-    write_all_of(j, "values");
+        json_field(j, "additionalProperties",
+                   format("{\"if\": {\"type\": \"object\", \"required\": [\"default\"]}, \"then\": %s}",
+                          reference_to(text_of(key, "of"))));
+    write_shared(j, "values");
 }
 
 static void write_later(struct json *j, const char *name, const struct node *key) {
-    write_raw(j, "type", "\"null\""); /* nothing is right, and errorMessage says why */
-    write_raw(j, "not", "{\"type\": \"null\"}");
-    write_pair(j, "errorMessage", format("`%s` is not there yet: %s", name, text_of(key, "doc")));
-    write_raw(j, "doNotSuggest", "true");
+    json_field(j, "type", "\"null\""); /* nothing is right, and errorMessage says why */
+    json_field(j, "not", "{\"type\": \"null\"}");
+    json_pair(j, "errorMessage", format("`%s` is not there yet: %s", name, text_of(key, "doc")));
+    json_field(j, "doNotSuggest", "true");
 }
 
 static void write_type(struct json *j, const char *name, const struct node *key) {
@@ -154,7 +211,7 @@ static void write_type(struct json *j, const char *name, const struct node *key)
     else if (type_is(key, "color"))
         write_color(j, key);
     else if (type_is(key, "object"))
-        write_object(j, key);
+        write_object(j, name, key);
     else if (type_is(key, "list"))
         write_list(j, key);
     else if (type_is(key, "map"))
@@ -164,35 +221,7 @@ static void write_type(struct json *j, const char *name, const struct node *key)
     else if (type_is(key, "later"))
         write_later(j, name, key);
     else
-        write_all_of(j, text_of(key, "type"));
-}
-
-/* ---- Keys ---- */
-
-/* The example's value, where the example is `key: value`. */
-static const struct node *example_value(const char *name, const struct node *key) {
-    const struct node *example = get(key, "example") ? parse_text(text_of(key, "example")) : NULL;
-    return example && example->kind == NODE_MAPPING ? get(example, name) : NULL;
-}
-
-static void write_docs(struct json *j, const char *name, const struct node *key) {
-    const char *range = range_text(key), *otherwise = default_text(key);
-    const struct node *example = example_value(name, key);
-    write_pair(j, "description", text_of(key, "doc"));
-    const char *facts = format("*%s*%s%s%s", type_text(key, false), *range ? ", " : "", range,
-                               otherwise                  ? format("; default: %s", otherwise)
-                               : is_true(key, "required") ? "; must be given"
-                                                          : "");
-    write_pair(j, "markdownDescription", format("%s\n\n%s", text_of(key, "doc"), facts));
-    if (get(key, "default")) {
-        json_key(j, "default");
-        json_node(j, get(key, "default"));
-    }
-    if (!example) return;
-    json_key(j, "examples");
-    json_open(j, '[');
-    json_node(j, example);
-    json_close(j, ']');
+        write_shared(j, text_of(key, "type"));
 }
 
 static void write_key(struct json *j, const char *name, const struct node *key) {
@@ -209,7 +238,7 @@ static void write_required(struct json *j, const struct node *kind) {
     char *names = "";
     for (const struct node *k = keys_of(kind); k; k = k->next->next)
         if (is_true(k->next, "required")) names = format("%s%s\"%s\"", names, *names ? ", " : "", k->text);
-    if (*names) write_raw(j, "required", format("[%s]", names));
+    if (*names) json_field(j, "required", format("[%s]", names));
 }
 
 static bool is_alternative(const struct node *key) {
@@ -232,7 +261,7 @@ static void write_alternatives(struct json *j, const struct node *kind) {
     const char *message =
         format("\"], \"errorMessage\": \"%s needs one of %s\"}", text_of(kind, "title"), words);
     if (*words)
-        write_raw(j, "anyOf", format("[%s]", alternatives(kind, "{\"required\": [\"", message, ", ")));
+        json_field(j, "anyOf", format("[%s]", alternatives(kind, "{\"required\": [\"", message, ", ")));
 }
 
 /* What must, or must not, stand beside the key. */
@@ -259,16 +288,16 @@ static void write_dependencies(struct json *j, const struct node *kind) {
     json_key(j, "dependencies");
     json_open(j, '{');
     for (const struct node *k = keys_of(kind); k; k = k->next->next)
-        if (dependency(kind, k->text, k->next)) write_raw(j, k->text, dependency(kind, k->text, k->next));
+        if (dependency(kind, k->text, k->next)) json_field(j, k->text, dependency(kind, k->text, k->next));
     json_close(j, '}');
 }
 
 static void write_kind(struct json *j, const struct node *kind) {
-    write_pair(j, "description", text_of(kind, "doc"));
+    json_pair(j, "description", text_of(kind, "doc"));
     write_required(j, kind);
     write_alternatives(j, kind);
     write_dependencies(j, kind);
-    write_raw(j, "additionalProperties", "false");
+    json_field(j, "additionalProperties", "false");
     json_key(j, "properties");
     json_open(j, '{');
     for (const struct node *k = keys_of(kind); k; k = k->next->next) write_key(j, k->text, k->next);
@@ -279,98 +308,39 @@ static void write_kind(struct json *j, const struct node *kind) {
 static void write_definition(struct json *j, const char *name, const struct node *kind) {
     json_key(j, name);
     json_open(j, '{');
-    write_pair(j, "title", text_of(kind, "title"));
-    write_raw(j, "type", "[\"object\", \"string\"]");
+    json_pair(j, "title", text_of(kind, "title"));
+    json_field(j, "type", "[\"object\", \"string\"]");
     write_word(j, format("%s, which is a mapping", text_of(kind, "title")));
     write_kind(j, kind);
     json_close(j, '}');
 }
 
-/* ---- Where there are no names ---- */
-
-static bool is_plain_mapping(const struct node *key) {
-    return type_is(key, "object") || type_is(key, "list") || type_is(key, "map");
-}
-
-/* Whether the key brings names into its mapping. */
-static bool brings_names(const struct node *key) {
-    const char *of = text_of(key, "of");
-    const bool named =
-        of && (strcmp(of, "param") == 0 || strcmp(of, "template") == 0 || strcmp(of, "animation") == 0);
-    return type_is(key, "files") || type_is(key, "ranges") || named;
-}
-
-/* Where a text stands, it should have been of that type; else the rest. */
-static const char *no_text(const char *type, const char *rest) {
-    return format("{\"if\": {\"type\": \"string\"}, \"then\": {\"type\": \"%s\"}, \"else\": %s}", type, rest);
-}
-
-static void write_plain_key(struct json *j, const struct node *key) {
-    const char *of = text_of(key, "of"), *plain = of ? reference_to(format("plain_%s", of)) : NULL;
-    if (type_is(key, "boolean"))
-        json_raw(j, no_text("boolean", "true"));
-    else if (type_is(key, "map"))
-        json_raw(j, format("{\"additionalProperties\": %s}", no_text("object", plain)));
-    else if (type_is(key, "object"))
-        json_raw(j, is_true(key, "named") ? plain : no_text("object", plain));
-    else if (type_is(key, "list")) {
-        const char *items = format("{\"items\": %s}", no_text("object", plain));
-        json_raw(j, no_text("array",
-                            is_true(key, "single") ? format("{\"allOf\": [%s, %s]}", items, plain) : items));
-    } else {
-        json_open(j, '{');
-        write_raw(j, "if", "{\"type\": \"string\"}");
-        json_key(j, "then");
-        json_open(j, '{');
-        write_enum(j, get(key, "choices"));
-        json_close(j, '}');
-        json_close(j, '}');
-    }
-}
-
-static void write_plain_keys(struct json *j, const struct node *kind) {
-    json_key(j, "properties");
-    json_open(j, '{');
-    for (const struct node *k = keys_of(kind); k; k = k->next->next) {
-        if (!is_plain_mapping(k->next) && !type_is(k->next, "boolean") && !type_is(k->next, "choice"))
-            continue;
-        json_key(j, k->text);
-        write_plain_key(j, k->next);
-    }
-    json_close(j, '}');
-}
-
-static void write_plain(struct json *j, const char *name, const struct node *kind) {
-    char *names = "";
-    for (const struct node *k = keys_of(kind); k; k = k->next->next)
-        if (brings_names(k->next))
-            names = format("%s%s{\"required\": [\"%s\"]}", names, *names ? ", " : "", k->text);
-    json_key(j, format("plain_%s", name));
-    json_open(j, '{');
-    if (*names) {
-        write_raw(j, "if", format("{\"anyOf\": [%s]}", names));
-        json_key(j, "else");
-        json_open(j, '{');
-    }
-    write_plain_keys(j, kind);
-    if (*names) json_close(j, '}');
-    json_close(j, '}');
-}
-
 /* ---- The whole ---- */
+
+static void write_color_names(struct json *j, const struct node *colors) {
+    json_key(j, "color_name");
+    json_open(j, '{');
+    json_key(j, "enum");
+    json_open(j, '[');
+    for (const struct node *k = colors->first; k; k = k->next->next) json_text(j, k->text);
+    json_close(j, ']');
+    json_close(j, '}');
+}
 
 void write_schema(FILE *out, const struct definition *language) {
     struct json j = {.out = out, .lines = 4};
     const struct node *file = language->kinds->first;
+    types = language->types;
     json_open(&j, '{');
-    write_pair(&j, "$schema", "http://json-schema.org/draft-07/schema#");
-    write_pair(&j, "title", "a scene of Monge");
-    write_pair(&j, "$comment", "Generated from grammar/language.yaml and grammar/types.yaml.");
-    write_raw(&j, "type", "\"object\"");
+    json_pair(&j, "$schema", "http://json-schema.org/draft-07/schema#");
+    json_pair(&j, "title", "a scene of Monge");
+    json_pair(&j, "$comment", "Generated from grammar/language.yaml and grammar/types.yaml.");
+    json_field(&j, "type", "\"object\"");
     write_kind(&j, file->next);
-    write_all_of(&j, "plain_file");
+    json_field(&j, "allOf", format("[%s]", reference_to("plain_file")));
     json_key(&j, "definitions");
     json_open(&j, '{');
+    write_color_names(&j, language->colors);
     for (const struct node *k = language->types->first; k; k = k->next->next) {
         json_key(&j, k->text);
         json_node(&j, k->next);
