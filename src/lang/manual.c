@@ -131,7 +131,7 @@ static void print_language(FILE *out) {
         fprintf(out, "%*s%.*s\n", *line == '\n' ? 0 : KEY_COLUMN, "", (int)strcspn(line, "\n"), line);
     fputc('\n', out);
     print_paragraph(out, file->doc, 0);
-    fputs("\nThe kinds of mappings in a scene; `monge help WORD` tells of each, and of any key:\n\n", out);
+    fputs("\nThe mappings of a scene; `monge help WORD` tells more of each, and of any key:\n\n", out);
     for (int i = 0; i < grammar_kind_count; i++) print_summary(out, &grammar_kinds[i]);
 }
 

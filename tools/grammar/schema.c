@@ -145,10 +145,13 @@ static void write_size(struct json *j, const struct node *key) {
 static void write_color(struct json *j, const struct node *key) {
     const char *color = reference_to("color");
     if (get(key, "max")) color = format("%s, %s", reference_to("no_bytes"), color);
-    if (get(key, "of"))
+    if (get(key, "of")) {
         color = format("{\"if\": {\"type\": \"object\", \"not\": {\"required\": [\"keys\"]}}, \"then\": %s, "
                        "\"else\": {\"allOf\": [%s]}}",
                        reference_to(text_of(key, "of")), color);
+        json_field(j, "anyOf",
+                   format("[%s, {}]", reference_to("color_name"))); /* editors offer nothing of an `else` */
+    }
     json_field(j, "type", "[\"array\", \"string\", \"object\"]");
     json_field(j, "allOf", format("[%s]", color));
 }
@@ -187,10 +190,12 @@ static void write_map(struct json *j, const struct node *key) {
 
 /* A parameter's default alone, or a mapping that has it. */
 static void write_values(struct json *j, const struct node *key) {
-    if (get(key, "of"))
+    if (get(key, "of")) {
+        json_field(j, "propertyNames", reference_to("word"));
         json_field(j, "additionalProperties",
                    format("{\"if\": {\"type\": \"object\", \"required\": [\"default\"]}, \"then\": %s}",
                           reference_to(text_of(key, "of"))));
+    }
     write_shared(j, "values");
 }
 
