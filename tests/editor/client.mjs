@@ -10,11 +10,11 @@ export class Editor {
     #input = Buffer.alloc(0);
     #last = 0;
 
-    // The schema is for every document.
+    // The schema is for all documents *.yaml.
     constructor(modules, schema) {
         const program = path.join(modules, "node_modules/yaml-language-server/bin/yaml-language-server");
         this.settings = {
-            yaml: { schemas: { [pathToFileURL(path.resolve(schema)).href]: "*" }, schemaStore: { enable: false }, format: { enable: false } },
+            yaml: { schemas: { [pathToFileURL(path.resolve(schema)).href]: "*.yaml" }, schemaStore: { enable: false }, format: { enable: false } },
             http: {},
             "[yaml]": {},
             editor: {},
@@ -56,9 +56,9 @@ export class Editor {
         return new Promise((resolve, reject) => this.#answers.set(id, { resolve, reject }));
     }
 
-    // Opens a document; its diagnostics.
+    // Opens a document, by its name or its whole URI; its diagnostics.
     open(name, text) {
-        const uri = `file:///scenes/${name}`;
+        const uri = name.startsWith("file:") ? name : `file:///scenes/${name}`;
         const diagnostics = new Promise((resolve) => this.#diagnosed.set(uri, resolve));
         this.#notify("textDocument/didOpen", { textDocument: { uri, languageId: "yaml", version: 1, text } });
         return diagnostics;

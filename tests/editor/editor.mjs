@@ -1,5 +1,6 @@
 // What an editor shows of scenes, asked of the real yaml-language-server: node editor.mjs MODULES SCHEMA
 import fs from "node:fs";
+import { pathToFileURL } from "node:url";
 import { Editor } from "./client.mjs";
 import { verdict, yamlFiles } from "./report.mjs";
 
@@ -53,6 +54,15 @@ async function marksNothing(name, text) {
     verdict(`${name} has no marks`, found.length === 0, JSON.stringify(found.map((d) => [d.range, d.message])));
 }
 
+// A document that names its schema itself, in a comment.
+async function marksByModeline() {
+    const text = "# yaml-language-server: $schema=grammar/scene.schema.json\nscene: [{sphere: {raduis: 2}}]";
+    const found = await editor.open(pathToFileURL("modeline.yml").href, text);
+    verdict("a comment names the schema", found.length === 1 && found[0].message.includes("raduis"), JSON.stringify(found));
+    const without = await editor.open(pathToFileURL("none.yml").href, text.replace("$schema", "schema"));
+    verdict("without it there is none", without.length === 0, JSON.stringify(without));
+}
+
 await editor.start();
 await Promise.all([
     offers("|", ["scene", "camera", "materials", "define", "animation"], ["sphere"]),
@@ -91,7 +101,8 @@ await Promise.all([
     marks("camera: {look_at: [0, 0, 0], |direction|: [0, 0, 1]}\nscene: []", "contradicts `look_at`"),
     marks("camera: {direction: |[0, 0, 0]|}\nscene: []", "no direction"),
     marks("materials: {a: {diffuse: |[255, 0, 0]|}}\nscene: []", "linear"),
-    marksNothing("anchors", "materials: {a: &a {diffuse: red}, b: {<<: *a, specular: white}}\nscene: [{sphere: &s {radius: 2}}, {sphere: *s}, {sphere: {<<: *s, radius: 3}}]"),
+    marksByModeline(),
+    marksNothing("anchors.yaml", "materials: {a: &a {diffuse: red}, b: {<<: *a, specular: white}}\nscene: [{sphere: &s {radius: 2}}, {sphere: *s}, {sphere: {<<: *s, radius: 3}}]"),
     ...["scenes", "tests/editor/accepted"].flatMap(yamlFiles).map((file) => marksNothing(file, fs.readFileSync(file, "utf8"))),
 ]);
 await editor.stop();
