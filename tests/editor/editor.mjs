@@ -96,6 +96,8 @@ await Promise.all([
     marks("scene: [{sphere: {radius: |45deg|}}]", "not an expression"),
     marks("scene: [{sphere: {radius: |-1|}}]", "minimum of 0"),
     marks("scene: [{sphere: |big|}]", "not a mapping"),
+    marks("scene: [{cylinder: {open: |yes|}}]", "not true or false"),
+    marks("scene: |sphere|", "not a list"),
     marks("scene: [{sphere: {}, |box|: {}}]", "an object is one of them"),
     marks("scene: []\nlights: [{area: |{}|}]", "not there yet"),
     marks("camera: {look_at: [0, 0, 0], |direction|: [0, 0, 1]}\nscene: []", "contradicts `look_at`"),

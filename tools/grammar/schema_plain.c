@@ -16,14 +16,10 @@ static bool brings_names(const struct node *key) {
 
 /* Where a text stands, it should have been of that type; else the rest. */
 static const char *no_text(const char *type, const char *rest) {
-    return format("{\"if\": {\"type\": \"string\"}, \"then\": {\"type\": \"%s\", \"errorMessage\": \"not %s, "
-                  "and there are no parameters\"}, "
-                  "\"else\": %s}",
-                  type,
-                  strcmp(type, "boolean") == 0 ? "true or false"
-                  : strcmp(type, "array") == 0 ? "a list"
-                                               : "a mapping",
-                  rest);
+    return format("{\"if\": {\"type\": \"string\"}, \"then\": {\"type\": \"%s\", \"errorMessage\": \"not a "
+                  "%s, and there are no "
+                  "parameters\"}, \"else\": %s}",
+                  type, strcmp(type, "array") == 0 ? "list" : "mapping", rest);
 }
 
 static const char *plain_list(const struct node *key, const char *plain) {
@@ -49,7 +45,8 @@ static void write_plain_key(struct json *j, const struct node *key) {
     json_key(j, "allOf");
     json_open(j, '[');
     if (type_is(key, "boolean"))
-        json_raw(j, no_text("boolean", "true"));
+        json_raw(j, "{\"if\": {\"type\": \"string\"}, \"then\": {\"pattern\": \"^(true|false)$\", "
+                    "\"patternErrorMessage\": \"not true or false, and there are no parameters\"}}");
     else if (type_is(key, "map"))
         json_raw(j, format("{\"additionalProperties\": %s}", no_text("object", plain)));
     else if (type_is(key, "object"))
