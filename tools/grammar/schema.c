@@ -20,19 +20,19 @@ const char *reference_to(const char *definition) {
 }
 
 /* The values of types.yaml. Editors look at the key's own `type` for what to insert. */
-static void write_shared(struct json *j, const char *type) {
+static void write_shared(struct emitter *j, const char *type) {
     const struct node *allowed = get(get(types, type), "type");
     if (allowed) {
-        json_key(j, "type");
-        json_node(j, allowed);
+        emit_key(j, "type");
+        emit_node(j, allowed);
     }
-    json_field(j, "allOf", format("[%s]", reference_to(type)));
+    emit_field(j, "allOf", format("[%s]", reference_to(type)));
 }
 
 /* A word may stand for it. */
-static void write_word(struct json *j, const char *what) {
-    json_pair(j, "pattern", "^[A-Za-z_][A-Za-z0-9_]*$");
-    json_pair(j, "patternErrorMessage", format("not %s, and not a name", what));
+static void write_word(struct emitter *j, const char *what) {
+    emit_pair(j, "pattern", "^[A-Za-z_][A-Za-z0-9_]*$");
+    emit_pair(j, "patternErrorMessage", format("not %s, and not a name", what));
 }
 
 /* ---- What people read ---- */
@@ -53,7 +53,7 @@ static const struct node *example_value(const char *name, const struct node *key
 }
 
 /* A row is better written in one line than as editors would. */
-static void write_snippet(struct json *j, const struct node *row) {
+static void write_snippet(struct emitter *j, const struct node *row) {
     if (!row || row->kind != NODE_SEQUENCE) return;
     char *text = "";
     int stop = 0;
@@ -62,44 +62,44 @@ static void write_snippet(struct json *j, const struct node *row) {
         text = format("%s%s${%d:%s}", text, stop ? ", " : "", stop + 1, item->text);
         stop++;
     }
-    json_key(j, "defaultSnippets");
-    json_open(j, '[');
-    json_open(j, '{');
-    json_pair(j, "label", row_text(row));
-    json_pair(j, "body", format("[%s]", text));
-    json_close(j, '}');
-    json_close(j, ']');
+    emit_key(j, "defaultSnippets");
+    emit_open(j, '[');
+    emit_open(j, '{');
+    emit_pair(j, "label", row_text(row));
+    emit_pair(j, "body", format("[%s]", text));
+    emit_close(j, '}');
+    emit_close(j, ']');
 }
 
-static void write_docs(struct json *j, const char *name, const struct node *key) {
+static void write_docs(struct emitter *j, const char *name, const struct node *key) {
     const char *range = range_text(key), *otherwise = default_text(key);
     const struct node *example = example_value(name, key);
-    json_pair(j, "description", text_of(key, "doc"));
+    emit_pair(j, "description", text_of(key, "doc"));
     const char *facts = format("*%s*%s%s%s", type_text(key, false), *range ? ", " : "", range,
                                otherwise                  ? format("; default: %s", otherwise)
                                : is_true(key, "required") ? "; must be given"
                                                           : "");
     const char *shown =
         get(key, "example") && !example ? format("\n\nExample: `%s`", text_of(key, "example")) : "";
-    json_pair(j, "markdownDescription", format("%s\n\n%s%s", text_of(key, "doc"), facts, shown));
+    emit_pair(j, "markdownDescription", format("%s\n\n%s%s", text_of(key, "doc"), facts, shown));
     if (get(key, "default")) {
-        json_key(j, "default");
-        json_node(j, get(key, "default"));
+        emit_key(j, "default");
+        emit_node(j, get(key, "default"));
     }
     write_snippet(j, get(key, "default") ? get(key, "default") : example);
     if (!example) return;
-    json_key(j, "examples");
-    json_open(j, '[');
-    json_node(j, example);
-    json_close(j, ']');
+    emit_key(j, "examples");
+    emit_open(j, '[');
+    emit_node(j, example);
+    emit_close(j, ']');
 }
 
 /* ---- Values by the type of their key ---- */
 
-static void write_limits(struct json *j, const struct node *key) {
+static void write_limits(struct emitter *j, const struct node *key) {
     const char *min = text_of(key, "min"), *max = text_of(key, "max");
-    if (min) json_field(j, is_true(key, "above") ? "exclusiveMinimum" : "minimum", min);
-    if (max) json_field(j, "maximum", max);
+    if (min) emit_field(j, is_true(key, "above") ? "exclusiveMinimum" : "minimum", min);
+    if (max) emit_field(j, "maximum", max);
 }
 
 static bool only_digits(const struct node *words) {
@@ -109,104 +109,104 @@ static bool only_digits(const struct node *words) {
 }
 
 /* A choice like 8 may be written as a number or as a text. */
-void write_enum(struct json *j, const struct node *choices) {
-    json_key(j, "enum");
-    json_open(j, '[');
+void write_enum(struct emitter *j, const struct node *choices) {
+    emit_key(j, "enum");
+    emit_open(j, '[');
     if (only_digits(choices))
-        for (const struct node *c = choices->first; c; c = c->next) json_raw(j, c->text);
-    for (const struct node *c = choices->first; c; c = c->next) json_text(j, c->text);
-    json_close(j, ']');
+        for (const struct node *c = choices->first; c; c = c->next) emit_raw(j, c->text);
+    for (const struct node *c = choices->first; c; c = c->next) emit_text(j, c->text);
+    emit_close(j, ']');
 }
 
-static void write_choice(struct json *j, const struct node *key) {
-    json_key(j, "anyOf");
-    json_open(j, '[');
-    json_open(j, '{');
+static void write_choice(struct emitter *j, const struct node *key) {
+    emit_key(j, "anyOf");
+    emit_open(j, '[');
+    emit_open(j, '{');
     write_enum(j, get(key, "choices"));
-    json_close(j, '}');
-    json_raw(j, reference_to("word"));
-    json_close(j, ']');
+    emit_close(j, '}');
+    emit_raw(j, reference_to("word"));
+    emit_close(j, ']');
 }
 
-static void write_number(struct json *j, const struct node *key) {
+static void write_number(struct emitter *j, const struct node *key) {
     write_limits(j, key);
     write_shared(j, text_of(key, "type"));
 }
 
-static void write_size(struct json *j, const struct node *key) {
-    json_key(j, "items");
-    json_open(j, '{');
+static void write_size(struct emitter *j, const struct node *key) {
+    emit_key(j, "items");
+    emit_open(j, '{');
     write_limits(j, key);
-    json_close(j, '}');
+    emit_close(j, '}');
     write_shared(j, "size");
 }
 
 /* A mapping of another kind than keyframes may stand for some. */
-static void write_color(struct json *j, const struct node *key) {
+static void write_color(struct emitter *j, const struct node *key) {
     const char *color = reference_to("color");
     if (get(key, "max")) color = format("%s, %s", reference_to("no_bytes"), color);
     if (get(key, "of")) {
         color = format("{\"if\": {\"type\": \"object\", \"not\": {\"required\": [\"keys\"]}}, \"then\": %s, "
                        "\"else\": {\"allOf\": [%s]}}",
                        reference_to(text_of(key, "of")), color);
-        json_field(j, "anyOf",
+        emit_field(j, "anyOf",
                    format("[%s, {}]", reference_to("color_name"))); /* editors offer nothing of an `else` */
     }
-    json_field(j, "type", "[\"array\", \"string\", \"object\"]");
-    json_field(j, "allOf", format("[%s]", color));
+    emit_field(j, "type", "[\"array\", \"string\", \"object\"]");
+    emit_field(j, "allOf", format("[%s]", color));
 }
 
-static void write_object(struct json *j, const char *name, const struct node *key) {
+static void write_object(struct emitter *j, const char *name, const struct node *key) {
     const char *kind = text_of(key, "of");
     if (!is_true(key, "named")) {
-        json_pair(j, "$ref", format("#/definitions/%s", kind));
+        emit_pair(j, "$ref", format("#/definitions/%s", kind));
         return;
     }
-    json_field(j, "type", "[\"object\", \"string\", \"number\", \"boolean\"]");
-    json_field(j, "if", "{\"type\": \"object\"}");
-    json_key(j, "then");
-    json_open(j, '{');
+    emit_field(j, "type", "[\"object\", \"string\", \"number\", \"boolean\"]");
+    emit_field(j, "if", "{\"type\": \"object\"}");
+    emit_key(j, "then");
+    emit_open(j, '{');
     write_docs(j, name, key); /* else the kind's are shown */
-    json_pair(j, "$ref", format("#/definitions/%s", kind));
-    json_close(j, '}');
-    json_field(j, "else", reference_to("name"));
+    emit_pair(j, "$ref", format("#/definitions/%s", kind));
+    emit_close(j, '}');
+    emit_field(j, "else", reference_to("name"));
 }
 
-static void write_list(struct json *j, const struct node *key) {
+static void write_list(struct emitter *j, const struct node *key) {
     const bool single = is_true(key, "single");
     const char *item = reference_to(text_of(key, "of"));
-    json_field(j, "type", single ? "[\"array\", \"object\", \"string\"]" : "[\"array\", \"string\"]");
+    emit_field(j, "type", single ? "[\"array\", \"object\", \"string\"]" : "[\"array\", \"string\"]");
     write_word(j, "a list");
-    json_field(j, "items", item);
+    emit_field(j, "items", item);
     if (!single) return;
-    json_field(j, "if", "{\"type\": \"object\"}");
-    json_field(j, "then", item);
+    emit_field(j, "if", "{\"type\": \"object\"}");
+    emit_field(j, "then", item);
 }
 
-static void write_map(struct json *j, const struct node *key) {
-    json_field(j, "type", "\"object\"");
-    json_field(j, "additionalProperties", reference_to(text_of(key, "of")));
+static void write_map(struct emitter *j, const struct node *key) {
+    emit_field(j, "type", "\"object\"");
+    emit_field(j, "additionalProperties", reference_to(text_of(key, "of")));
 }
 
 /* A parameter's default alone, or a mapping that has it. */
-static void write_values(struct json *j, const struct node *key) {
+static void write_values(struct emitter *j, const struct node *key) {
     if (get(key, "of")) {
-        json_field(j, "propertyNames", reference_to("word"));
-        json_field(j, "additionalProperties",
+        emit_field(j, "propertyNames", reference_to("word"));
+        emit_field(j, "additionalProperties",
                    format("{\"if\": {\"type\": \"object\", \"required\": [\"default\"]}, \"then\": %s}",
                           reference_to(text_of(key, "of"))));
     }
     write_shared(j, "values");
 }
 
-static void write_later(struct json *j, const char *name, const struct node *key) {
-    json_field(j, "type", "\"null\""); /* nothing is right, and errorMessage says why */
-    json_field(j, "not", "{\"type\": \"null\"}");
-    json_pair(j, "errorMessage", format("`%s` is not there yet: %s", name, text_of(key, "doc")));
-    json_field(j, "doNotSuggest", "true");
+static void write_later(struct emitter *j, const char *name, const struct node *key) {
+    emit_field(j, "type", "\"null\""); /* nothing is right, and errorMessage says why */
+    emit_field(j, "not", "{\"type\": \"null\"}");
+    emit_pair(j, "errorMessage", format("`%s` is not there yet: %s", name, text_of(key, "doc")));
+    emit_field(j, "doNotSuggest", "true");
 }
 
-static void write_type(struct json *j, const char *name, const struct node *key) {
+static void write_type(struct emitter *j, const char *name, const struct node *key) {
     if (type_is(key, "number") || type_is(key, "integer"))
         write_number(j, key);
     else if (type_is(key, "choice"))
@@ -229,21 +229,21 @@ static void write_type(struct json *j, const char *name, const struct node *key)
         write_shared(j, text_of(key, "type"));
 }
 
-static void write_key(struct json *j, const char *name, const struct node *key) {
-    json_key(j, name);
-    json_open(j, '{');
+static void write_key(struct emitter *j, const char *name, const struct node *key) {
+    emit_key(j, name);
+    emit_open(j, '{');
     write_docs(j, name, key);
     write_type(j, name, key);
-    json_close(j, '}');
+    emit_close(j, '}');
 }
 
 /* ---- Kinds ---- */
 
-static void write_required(struct json *j, const struct node *kind) {
+static void write_required(struct emitter *j, const struct node *kind) {
     char *names = "";
     for (const struct node *k = keys_of(kind); k; k = k->next->next)
         if (is_true(k->next, "required")) names = format("%s%s\"%s\"", names, *names ? ", " : "", k->text);
-    if (*names) json_field(j, "required", format("[%s]", names));
+    if (*names) emit_field(j, "required", format("[%s]", names));
 }
 
 static bool is_alternative(const struct node *key) {
@@ -261,12 +261,12 @@ static const char *alternatives(const struct node *kind, const char *before, con
 }
 
 /* At least one of them; that it is one at most, the dependencies say. */
-static void write_alternatives(struct json *j, const struct node *kind) {
+static void write_alternatives(struct emitter *j, const struct node *kind) {
     const char *words = alternatives(kind, "", "", ", ");
     const char *message =
         format("\"], \"errorMessage\": \"%s needs one of %s\"}", text_of(kind, "title"), words);
     if (*words)
-        json_field(j, "anyOf", format("[%s]", alternatives(kind, "{\"required\": [\"", message, ", ")));
+        emit_field(j, "anyOf", format("[%s]", alternatives(kind, "{\"required\": [\"", message, ", ")));
 }
 
 /* What must, or must not, stand beside the key. */
@@ -285,77 +285,77 @@ static const char *dependency(const struct node *kind, const char *name, const s
     return *parts ? format("{\"allOf\": [%s]}", parts) : NULL;
 }
 
-static void write_dependencies(struct json *j, const struct node *kind) {
+static void write_dependencies(struct emitter *j, const struct node *kind) {
     bool any = false;
     for (const struct node *k = keys_of(kind); k; k = k->next->next)
         any |= dependency(kind, k->text, k->next) != NULL;
     if (!any) return;
-    json_key(j, "dependencies");
-    json_open(j, '{');
+    emit_key(j, "dependencies");
+    emit_open(j, '{');
     for (const struct node *k = keys_of(kind); k; k = k->next->next)
-        if (dependency(kind, k->text, k->next)) json_field(j, k->text, dependency(kind, k->text, k->next));
-    json_close(j, '}');
+        if (dependency(kind, k->text, k->next)) emit_field(j, k->text, dependency(kind, k->text, k->next));
+    emit_close(j, '}');
 }
 
-static void write_kind(struct json *j, const struct node *kind) {
-    json_pair(j, "description", text_of(kind, "doc"));
+static void write_kind(struct emitter *j, const struct node *kind) {
+    emit_pair(j, "description", text_of(kind, "doc"));
     write_required(j, kind);
     write_alternatives(j, kind);
     write_dependencies(j, kind);
-    json_field(j, "additionalProperties", "false");
-    json_key(j, "properties");
-    json_open(j, '{');
+    emit_field(j, "additionalProperties", "false");
+    emit_key(j, "properties");
+    emit_open(j, '{');
     for (const struct node *k = keys_of(kind); k; k = k->next->next) write_key(j, k->text, k->next);
-    json_close(j, '}');
+    emit_close(j, '}');
 }
 
 /* A kind but the file's: a word may stand for the mapping. */
-static void write_definition(struct json *j, const char *name, const struct node *kind) {
-    json_key(j, name);
-    json_open(j, '{');
-    json_pair(j, "title", text_of(kind, "title"));
-    json_field(j, "type", "[\"object\", \"string\"]");
+static void write_definition(struct emitter *j, const char *name, const struct node *kind) {
+    emit_key(j, name);
+    emit_open(j, '{');
+    emit_pair(j, "title", text_of(kind, "title"));
+    emit_field(j, "type", "[\"object\", \"string\"]");
     write_word(j, format("%s, which is a mapping", text_of(kind, "title")));
     write_kind(j, kind);
-    json_close(j, '}');
+    emit_close(j, '}');
 }
 
 /* ---- The whole ---- */
 
-static void write_color_names(struct json *j, const struct node *colors) {
-    json_key(j, "color_name");
-    json_open(j, '{');
-    json_key(j, "enum");
-    json_open(j, '[');
-    for (const struct node *k = colors->first; k; k = k->next->next) json_text(j, k->text);
-    json_close(j, ']');
-    json_close(j, '}');
+static void write_color_names(struct emitter *j, const struct node *colors) {
+    emit_key(j, "color_name");
+    emit_open(j, '{');
+    emit_key(j, "enum");
+    emit_open(j, '[');
+    for (const struct node *k = colors->first; k; k = k->next->next) emit_text(j, k->text);
+    emit_close(j, ']');
+    emit_close(j, '}');
 }
 
 void write_schema(FILE *out, const struct definition *language) {
-    struct json j = {.out = out, .lines = 4};
+    struct emitter j = {.out = out, .lines = 4};
     const struct node *file = language->kinds->first;
     types = language->types;
-    json_open(&j, '{');
-    json_pair(&j, "$schema", "http://json-schema.org/draft-07/schema#");
-    json_pair(&j, "title", "a scene of Monge");
-    json_pair(&j, "$comment", "Generated from grammar/language.yaml and grammar/types.yaml.");
-    json_field(&j, "type", "\"object\"");
+    emit_open(&j, '{');
+    emit_pair(&j, "$schema", "http://json-schema.org/draft-07/schema#");
+    emit_pair(&j, "title", "a scene of Monge");
+    emit_pair(&j, "$comment", "Generated from grammar/language.yaml and grammar/types.yaml.");
+    emit_field(&j, "type", "\"object\"");
     write_kind(&j, file->next);
-    json_field(&j, "allOf", format("[%s]", reference_to("plain_file")));
-    json_key(&j, "definitions");
-    json_open(&j, '{');
+    emit_field(&j, "allOf", format("[%s]", reference_to("plain_file")));
+    emit_key(&j, "definitions");
+    emit_open(&j, '{');
     write_color_names(&j, language->colors);
     for (const struct node *k = language->types->first; k; k = k->next->next) {
-        json_key(&j, k->text);
-        json_node(&j, k->next);
+        emit_key(&j, k->text);
+        emit_node(&j, k->next);
     }
     for (const struct node *k = file->next->next; k; k = k->next->next)
         write_definition(&j, k->text, k->next);
     for (const struct node *k = language->kinds->first; k; k = k->next->next)
         write_plain(&j, k->text, k->next);
-    json_close(&j, '}');
-    json_close(&j, '}');
+    emit_close(&j, '}');
+    emit_close(&j, '}');
     fputc('\n', out);
 }
 

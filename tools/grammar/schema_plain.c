@@ -27,63 +27,63 @@ static const char *plain_list(const struct node *key, const char *plain) {
     return no_text("array", is_true(key, "single") ? format("{\"allOf\": [%s, %s]}", items, plain) : items);
 }
 
-static void write_plain_choice(struct json *j, const struct node *key) {
-    json_open(j, '{');
-    json_field(j, "if", "{\"type\": \"string\"}");
-    json_key(j, "then");
-    json_open(j, '{');
+static void write_plain_choice(struct emitter *j, const struct node *key) {
+    emit_open(j, '{');
+    emit_field(j, "if", "{\"type\": \"string\"}");
+    emit_key(j, "then");
+    emit_open(j, '{');
     write_enum(j, get(key, "choices"));
-    json_close(j, '}');
-    json_close(j, '}');
+    emit_close(j, '}');
+    emit_close(j, '}');
 }
 
 /* doNotSuggest: the other layer does. */
-static void write_plain_key(struct json *j, const struct node *key) {
+static void write_plain_key(struct emitter *j, const struct node *key) {
     const char *of = text_of(key, "of"), *plain = of ? reference_to(format("plain_%s", of)) : NULL;
-    json_open(j, '{');
-    json_field(j, "doNotSuggest", "true");
-    json_key(j, "allOf");
-    json_open(j, '[');
+    emit_open(j, '{');
+    emit_field(j, "doNotSuggest", "true");
+    emit_key(j, "allOf");
+    emit_open(j, '[');
     if (type_is(key, "boolean"))
-        json_raw(j, "{\"if\": {\"type\": \"string\"}, \"then\": {\"pattern\": \"^(true|false)$\", "
+        emit_raw(j, "{\"if\": {\"type\": \"string\"}, \"then\": {\"pattern\": \"^(true|false)$\", "
                     "\"patternErrorMessage\": \"not true or false, and there are no parameters\"}}");
     else if (type_is(key, "map"))
-        json_raw(j, format("{\"additionalProperties\": %s}", no_text("object", plain)));
+        emit_raw(j, format("{\"additionalProperties\": %s}", no_text("object", plain)));
     else if (type_is(key, "object"))
-        json_raw(j, is_true(key, "named") ? plain : no_text("object", plain));
+        emit_raw(j, is_true(key, "named") ? plain : no_text("object", plain));
     else if (type_is(key, "list"))
-        json_raw(j, plain_list(key, plain));
+        emit_raw(j, plain_list(key, plain));
     else
         write_plain_choice(j, key);
-    json_close(j, ']');
-    json_close(j, '}');
+    emit_close(j, ']');
+    emit_close(j, '}');
 }
 
-static void write_plain_keys(struct json *j, const struct node *kind) {
-    json_key(j, "properties");
-    json_open(j, '{');
+static void write_plain_keys(struct emitter *j, const struct node *kind) {
+    emit_key(j, "properties");
+    emit_open(j, '{');
     for (const struct node *k = keys_of(kind); k; k = k->next->next) {
         if (!is_plain_mapping(k->next) && !type_is(k->next, "boolean") && !type_is(k->next, "choice"))
             continue;
-        json_key(j, k->text);
+        emit_key(j, k->text);
         write_plain_key(j, k->next);
     }
-    json_close(j, '}');
+    emit_close(j, '}');
 }
 
-void write_plain(struct json *j, const char *name, const struct node *kind) {
+void write_plain(struct emitter *j, const char *name, const struct node *kind) {
     char *names = "";
     for (const struct node *k = keys_of(kind); k; k = k->next->next)
         if (brings_names(k->next))
             names = format("%s%s{\"required\": [\"%s\"]}", names, *names ? ", " : "", k->text);
-    json_key(j, format("plain_%s", name));
-    json_open(j, '{');
+    emit_key(j, format("plain_%s", name));
+    emit_open(j, '{');
     if (*names) {
-        json_field(j, "if", format("{\"anyOf\": [%s]}", names));
-        json_key(j, "else");
-        json_open(j, '{');
+        emit_field(j, "if", format("{\"anyOf\": [%s]}", names));
+        emit_key(j, "else");
+        emit_open(j, '{');
     }
     write_plain_keys(j, kind);
-    if (*names) json_close(j, '}');
-    json_close(j, '}');
+    if (*names) emit_close(j, '}');
+    emit_close(j, '}');
 }

@@ -1,14 +1,14 @@
-#include "json.h"
+#include "emit.h"
 
 #include <ctype.h>
 #include <string.h>
 
-static void new_line(struct json *j) {
+static void new_line(struct emitter *j) {
     if (j->depth > 0 && j->depth <= j->lines) fprintf(j->out, "\n%*s", 2 * j->depth, "");
 }
 
 /* Before an item; a key and its value are one. */
-static void begin_item(struct json *j) {
+static void begin_item(struct emitter *j) {
     if (!j->keyed) {
         if (j->follows) fputs(j->depth <= j->lines ? "," : ", ", j->out);
         new_line(j);
@@ -17,7 +17,7 @@ static void begin_item(struct json *j) {
     j->follows = true;
 }
 
-static void quote(struct json *j, const char *text) {
+static void quote(struct emitter *j, const char *text) {
     fputc('"', j->out);
     for (; *text; text++) {
         if (*text == '"' || *text == '\\') fputc('\\', j->out);
@@ -29,14 +29,14 @@ static void quote(struct json *j, const char *text) {
     fputc('"', j->out);
 }
 
-void json_open(struct json *j, char bracket) {
+void emit_open(struct emitter *j, char bracket) {
     begin_item(j);
     fputc(bracket, j->out);
     j->depth++;
     j->follows = false;
 }
 
-void json_close(struct json *j, char bracket) {
+void emit_close(struct emitter *j, char bracket) {
     const bool empty = !j->follows;
     j->depth--;
     if (!empty && j->depth < j->lines) fprintf(j->out, "\n%*s", 2 * j->depth, "");
@@ -44,19 +44,19 @@ void json_close(struct json *j, char bracket) {
     j->follows = true;
 }
 
-void json_key(struct json *j, const char *key) {
+void emit_key(struct emitter *j, const char *key) {
     begin_item(j);
     quote(j, key);
     fputs(": ", j->out);
     j->keyed = true;
 }
 
-void json_text(struct json *j, const char *text) {
+void emit_text(struct emitter *j, const char *text) {
     begin_item(j);
     quote(j, text);
 }
 
-void json_raw(struct json *j, const char *json) {
+void emit_raw(struct emitter *j, const char *json) {
     begin_item(j);
     fputs(json, j->out);
 }
@@ -69,30 +69,30 @@ static bool is_plain(const struct node *node) {
            (isdigit((unsigned char)*digits) && !digits[strspn(digits, "0123456789.")]);
 }
 
-void json_node(struct json *j, const struct node *node) {
+void emit_node(struct emitter *j, const struct node *node) {
     node = node_resolve(node);
     if (node->kind == NODE_SCALAR) {
-        (is_plain(node) ? json_raw : json_text)(j, node->text);
+        (is_plain(node) ? emit_raw : emit_text)(j, node->text);
         return;
     }
     const bool mapping = node->kind == NODE_MAPPING;
-    json_open(j, mapping ? '{' : '[');
+    emit_open(j, mapping ? '{' : '[');
     for (const struct node *item = node->first; item; item = item->next) {
         if (mapping) {
-            json_key(j, node_resolve(item)->text);
+            emit_key(j, node_resolve(item)->text);
             item = item->next;
         }
-        json_node(j, item);
+        emit_node(j, item);
     }
-    json_close(j, mapping ? '}' : ']');
+    emit_close(j, mapping ? '}' : ']');
 }
 
-void json_pair(struct json *j, const char *key, const char *text) {
-    json_key(j, key);
-    json_text(j, text);
+void emit_pair(struct emitter *j, const char *key, const char *text) {
+    emit_key(j, key);
+    emit_text(j, text);
 }
 
-void json_field(struct json *j, const char *key, const char *json) {
-    json_key(j, key);
-    json_raw(j, json);
+void emit_field(struct emitter *j, const char *key, const char *json) {
+    emit_key(j, key);
+    emit_raw(j, json);
 }
