@@ -23,6 +23,7 @@ const EXCEPTIONS = {
     number_text: "a word may be the name of a parameter",
     point_words: "a word may be the name of a parameter",
     text_long: "a word may be the name of a parameter",
+    text_long_utf8: "a word may be the name of a parameter",
 };
 
 function read(text) {

@@ -31,7 +31,7 @@ static void write_shared(struct emitter *j, const char *type) {
 
 /* A word may stand for it. */
 static void write_word(struct emitter *j, const char *what) {
-    emit_pair(j, "pattern", "^[A-Za-z_][A-Za-z0-9_]*$");
+    emit_pair(j, "pattern", text_of(get(types, "word"), "pattern"));
     emit_pair(j, "patternErrorMessage", format("not %s, and not a name", what));
 }
 
