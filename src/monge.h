@@ -26,6 +26,24 @@
 
 const char *monge_version(void); /* "1.2.3", static */
 
+/* ---- The scene language ---- */
+
+/* The JSON Schema (draft-07) of scene files, by which editors complete and check them; static. */
+const char *monge_schema(void);
+
+/* A short scene to begin with, as YAML; static. */
+const char *monge_example(void);
+
+/* Prints the manual of a word of the language: a kind of mapping ("material"), a key of any of them
+ * ("radius"), or "language" for all kinds. False, printing nothing, when there is no such word. */
+bool monge_help(const char *word, FILE *out);
+
+/* The word for monge_help that was probably meant; static. NULL: none is near. */
+const char *monge_help_nearest(const char *word);
+
+/* The kinds of mappings by their number, from 0; static. NULL after the last. */
+const char *monge_kind(size_t index);
+
 /* ---- Diagnostics: what is wrong with a scene or a file, with its place ---- */
 
 struct monge_diagnostics;

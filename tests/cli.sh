@@ -109,7 +109,7 @@ exits 0 --help; out_has 'usage: monge COMMAND'; out_has 'render SCENE...'; no_er
 exits 0 -h; out_has 'usage: monge COMMAND'
 exits 0 help; out_has 'usage: monge COMMAND'
 exits 2; err_has 'usage: monge COMMAND'; no_out
-for command in render check fmt explain import help; do
+for command in render check fmt explain import schema help; do
     exits 0 help $command; out_has "usage: monge $command"
     cp out expected
     exits 0 $command --help; ok "$command --help is help $command" cmp out expected
@@ -119,9 +119,30 @@ exits 0 help render; out_has '--samples N'; out_has '(1 to 65536)'
 ok "help fits 80 columns" [ -z "$(grep -E '.{81}' out)" ]
 exits 0 render no-such-file.yaml --samples 3 --help; out_has 'usage: monge render'
 exits 2 help rendre; err_has 'did you mean `render`?'
-exits 2 help render check; err_has 'help: expected one command'
+exits 2 help render check; err_has 'help: expected one word'
 
-exits 0 help --man; out_has '.TH MONGE 1'; out_has '.SH EXIT STATUS'
+exits 0 help material; out_has 'material: a material'; out_has 'shininess: number, from 0 to 1000000; default: 32'
+out_has 'The key `material` of object:'; no_err
+exits 0 help radius; out_has 'The key `radius` of sphere, disc, cylinder:'; out_has 'The radius of the base.'
+exits 0 help eye; out_has 'default: in front of the scene'; ok "one kind has it" [ "$(grep -c 'The key' out)" -eq 1 ]
+exits 0 help ellipsoid; out_has 'not there yet'
+exits 0 help render; out_has '`render` is also a word of scenes'; out_has 'shading: `phong`, `diffuse`, `signature`; default: phong'
+exits 0 help look_at; exits 0 help rotate; out_has 'Its keys; exactly one of those with a * must be given:'; out_has 'x *: number, degrees'
+exits 2 help raduis; err_has 'no command and no word of scenes `raduis`; did you mean `radius`?'; no_out
+exits 2 help kone; err_has 'did you mean `cone`?'
+exits 2 help xyzzy; err_has 'no word of scenes `xyzzy`'; ok "nothing is near" sh -c '! grep -q mean err'
+exits 0 help language; out_has '  sphere '
+ok "the language fits 80 columns" [ -z "$(grep -E '.{81}' out)" ]
+for kind in $(sed -n '/^The mappings/,$s/^  \([a-z_0-9]*\) .*/\1/p' out); do
+    exits 0 help $kind; out_has "$kind"
+done
+ok "there were kinds" [ "$last" = 'help shear' ]
+run help language; sed -n '/^A scene:/,/^A scene file/s/^    //p' out >example.yaml
+exits 0 check example.yaml; no_err
+exits 0 schema; out_has '"$schema": "http://json-schema.org/draft-07/schema#"'; no_err
+exits 2 schema x; err_has 'schema: expected nothing more, found `x`'; no_out
+
+exits 0 help --man; out_has '.TH MONGE 1'; out_has '.SH EXIT STATUS'; out_has '.SH SCENES'; out_has 'material: jade'
 for option in output size samples region shading shadow no\\-shadows depth bits encoding threads stats progress format check quiet; do
     out_has "\\-\\-$option"
 done
@@ -130,6 +151,8 @@ exits 0 help --completion bash; cp out completion.bash
 ok "the bash completion parses" bash -n completion.bash
 complete_bash() { bash --norc -c 'source ./completion.bash; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _monge; printf "%s\n" "${COMPREPLY[@]}"' bash "$@" | sort | tr '\n' ' '; }
 ok "bash completes a command" [ "$(complete_bash monge re)" = 'render ' ]
+ok "bash completes a word of scenes" [ "$(complete_bash monge help mat)" = 'material ' ]
+ok "bash completes nothing after schema" [ "$(complete_bash monge schema '')" = ' ' ]
 ok "bash completes an option" [ "$(complete_bash monge render --sh)" = '--shading --shadow ' ]
 ok "bash completes a choice" [ "$(complete_bash monge render --shading '')" = 'diffuse phong signature ' ]
 ok "bash completes a choice after =" [ "$(complete_bash monge render --shading = d)" = 'diffuse ' ]

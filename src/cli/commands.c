@@ -10,6 +10,7 @@
 #include "cli/options.h"
 #include "cli/render.h"
 #include "cli/say.h"
+#include "cli/schema.h"
 #include "cli/suggest.h"
 #include "monge.h"
 
@@ -19,6 +20,7 @@
 #define IN_FMT     (1u << COMMAND_FMT)
 #define IN_EXPLAIN (1u << COMMAND_EXPLAIN)
 #define IN_IMPORT  (1u << COMMAND_IMPORT)
+#define IN_SCHEMA  (1u << COMMAND_SCHEMA)
 #define IN_HELP    (1u << COMMAND_HELP)
 #define IN_ALL     ((1u << COMMANDS) - 1)
 
@@ -173,14 +175,29 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
             .needs_operand = true,
             .run = fmt_command,
         },
+    [COMMAND_SCHEMA] =
+        {
+            .name = "schema",
+            .operands = "",
+            .doc = "print the JSON Schema of scenes, for editors",
+            .text = {"Prints what editors and validators need to complete, explain and check scenes, as "
+                     "JSON Schema, draft-07. It knows the keys, the types and the ranges; `monge check` "
+                     "knows what the names and the values mean as well."},
+            .examples = {{"monge schema > scene.schema.json",
+                          "for `# yaml-language-server: $schema=scene.schema.json` in a scene"}},
+            .run = schema_command,
+        },
     [COMMAND_HELP] =
         {
             .name = "help",
-            .operands = "[COMMAND]",
-            .doc = "tell how to use monge or one of its commands",
-            .text = {"Without a command: what there is. The manual page and the completion scripts "
-                     "come from the same table as this text."},
+            .operands = "[COMMAND|WORD]",
+            .doc = "tell how to use monge, or what a word of a scene means",
+            .text = {"Without a word: what there is. The manual page and the completion scripts come "
+                     "from the same table as this text. A word is any that a scene may have as a key, "
+                     "or the kind of one of its mappings; `language` gives them all."},
             .examples = {{"monge help render", "the options of render"},
+                         {"monge help language", "a scene to begin with, and the kinds of mappings"},
+                         {"monge help material", "the keys of a material, with types and defaults"},
                          {"source <(monge help --completion bash)", "completion in this shell"}},
             .run = help_command,
         },

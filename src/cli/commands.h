@@ -17,6 +17,7 @@ enum command_id {
     COMMAND_FMT,
     COMMAND_EXPLAIN,
     COMMAND_IMPORT,
+    COMMAND_SCHEMA,
     COMMAND_HELP,
     COMMANDS
 };
@@ -75,7 +76,7 @@ struct example {
 
 struct command_row {
     const char *name;
-    const char *operands;       /* "SCENE..." */
+    const char *operands;       /* "SCENE...", "" */
     const char *doc;            /* no capital, no full stop */
     const char *text[8];        /* paragraphs, up to a NULL */
     struct example examples[8]; /* up to a NULL */
