@@ -161,13 +161,13 @@ static bool check_value(struct checker *ck, const struct grammar_key *key, const
     const struct binding *b = may_vary(key) ? scope_stands_for(ck, node) : NULL;
     out->span = node->span;
     if (!b) return check_written(ck, key, node, out);
-    if (b->kind == BINDING_UNKNOWN) {
-        take_any(ck, key, out);
-        return ck->rehearsing;
-    }
     if (key->type == GRAMMAR_LIST && key->of == &grammar_kinds[KIND_OBJECT]) {
         out->node = node; /* place.c follows it */
         return true;
+    }
+    if (b->kind == BINDING_UNKNOWN) {
+        take_any(ck, key, out);
+        return ck->rehearsing;
     }
     if (!place_descend(ck, node)) return false;
     const struct scope *outer = ck->scope;

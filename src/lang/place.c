@@ -160,6 +160,7 @@ static void open_template(struct checker *ck, const struct object_value *object,
 
 static void place_use(struct checker *ck, const struct object_value *object) {
     struct definition *template = object->fields[KEY_OBJECT_USE]->definition;
+    if (!template) return; /* in a rehearsal: a variable names it */
     const struct object_value *read = ck->rehearsing ? NULL : define_read(ck, template);
     template->used = true;
     const struct node *parameters = node_resolve(template->node);

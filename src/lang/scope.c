@@ -5,9 +5,11 @@
 
 #include "lang/checker.h"
 
+static bool is_letter(char c) { return isalpha((unsigned char)c) || c == '_' || (unsigned char)c >= 0x80; }
+
 bool scope_is_name(const char *text) {
-    if (!isalpha((unsigned char)*text) && *text != '_') return false;
-    while (isalnum((unsigned char)*text) || *text == '_') text++;
+    if (!is_letter(*text)) return false;
+    while (is_letter(*text) || isdigit((unsigned char)*text)) text++;
     return !*text;
 }
 
