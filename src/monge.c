@@ -69,7 +69,7 @@ void monge_write_json_string(const char *text, FILE *out) { json_string(text, ou
 
 static const struct monge_limits default_limits = {
     .file_bytes = (size_t)1 << 30, .memory_bytes = (size_t)8 << 30, .values = 100 * 1000 * 1000, .nesting = 100,
-    .recursion = 100, .steps = 100 * 1000 * 1000, .objects = 20 * 1000 * 1000};
+    .recursion = 100, .steps = 10 * 1000 * 1000, .objects = 20 * 1000 * 1000};
 
 enum { MAX_NESTING = 1000, MAX_RECURSION = 1000 }; /* what the stack of a thread has room for */
 

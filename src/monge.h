@@ -82,7 +82,7 @@ struct monge_limits {
     size_t values;       /* values read from one file, aliases expanded: 100,000,000 */
     size_t nesting;      /* lists and mappings within each other: 100 */
     size_t recursion;    /* templates in use within each other: 100; at most 1000 */
-    size_t steps;        /* objects looked at and turns of loops: 100,000,000 */
+    size_t steps;        /* objects of templates and loops, placed or not: 10,000,000 */
     size_t objects;      /* shapes: 20,000,000, those of a template placed many times once */
 };
 

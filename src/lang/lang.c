@@ -69,12 +69,16 @@ static struct unit *read_scene(struct checker *ck) {
 
 /* What an included file has besides definitions is for when it is rendered itself: no slip in it passes. */
 static void check_included(struct checker *ck) {
+    const struct object_value *animation = ck->animation;
     ck->rehearsing = true;
-    for (const struct unit *unit = ck->units; unit; unit = unit->next)
-        if (unit->includer && unit->root && unit->root->kind == NODE_MAPPING) {
-            const struct object_value *file = check_object(ck, &grammar_kinds[KIND_FILE], unit->root);
-            if (file && file->fields[KEY_FILE_SCENE]) place_list(ck, file->fields[KEY_FILE_SCENE]->node);
-        }
+    for (const struct unit *unit = ck->units; unit; unit = unit->next) {
+        if (!unit->includer || !unit->root || unit->root->kind != NODE_MAPPING) continue;
+        const struct node *moving = node_get(unit->root, "animation");
+        if (moving && !animation) ck->animation = check_object(ck, &grammar_kinds[KIND_ANIMATION], moving);
+        const struct object_value *file = check_object(ck, &grammar_kinds[KIND_FILE], unit->root);
+        if (file && file->fields[KEY_FILE_SCENE]) place_list(ck, file->fields[KEY_FILE_SCENE]->node);
+        ck->animation = animation;
+    }
     ck->rehearsing = false;
 }
 
