@@ -42,8 +42,9 @@ bool color_parse(const char *text, vec3 *out) {
         *out = linear_from_bytes(rgb);
         return true;
     }
+    const char first = (char)(text[0] | 0x20); /* the names are in small letters */
     for (int i = 0; i < grammar_color_count; i++)
-        if (strcasecmp(text, grammar_colors[i].name) == 0) {
+        if (first == grammar_colors[i].name[0] && strcasecmp(text, grammar_colors[i].name) == 0) {
             *out = linear_from_bytes(grammar_colors[i].rgb);
             return true;
         }

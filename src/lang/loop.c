@@ -140,6 +140,7 @@ static void run_variables(struct loop *loop, const struct node *name) {
 }
 
 static bool names_allowed(struct checker *ck, const struct node *n) {
+    if (n->rehearsed) return true;
     bool good = true;
     for (const struct node *name = n->first; name; name = name->next->next) {
         good &= define_name_allowed(ck, "a loop variable", name);
@@ -150,6 +151,7 @@ static bool names_allowed(struct checker *ck, const struct node *n) {
                 good = false;
             }
     }
+    ((struct node *)n)->rehearsed = good; /* remembers that it was checked, and means what it meant */
     return good;
 }
 

@@ -39,7 +39,7 @@ struct reader {
 
 struct node *node_get(const struct node *mapping, const char *key) {
     for (struct node *k = mapping->first; k; k = k->next->next)
-        if (k->kind == NODE_SCALAR && strcmp(k->text, key) == 0) return k->next;
+        if (k->kind == NODE_SCALAR && k->text[0] == key[0] && strcmp(k->text, key) == 0) return k->next;
     return NULL;
 }
 
