@@ -125,7 +125,7 @@ static bool check_values(struct checker *ck, const struct grammar_key *key, cons
     }
     bool good = true;
     for (const struct node *name = n->first; name; name = name->next->next) {
-        if (!node_is_null(name->next)) continue;
+        if (!node_is_null(name->next) || key->type == GRAMMAR_MAP) continue; /* define.c reads a map's */
         diag_help(ck->diag, diag_error(ck->diag, name->span, "no-value", "`%s` has no value", node_resolve(name)->kind == NODE_SCALAR ? short_text(ck, node_resolve(name)->text) : "it"), "give it one, or remove the key");
         good = false;
     }
@@ -236,7 +236,10 @@ static void check_unknown(struct checker *ck, struct object_value *object, struc
     if (index < 0) return;
     const bool again = mapping->given[index] || mapping->meant[index];
     mapping->meant[index] = true;
-    if (!again) check_field(ck, object->kind, &object->kind->keys[index], name);
+    const struct grammar_key *key = &object->kind->keys[index];
+    const struct value *value = again ? NULL : check_field(ck, object->kind, key, name);
+    if (value && key->type == GRAMMAR_LIST && key->of == &grammar_kinds[KIND_OBJECT])
+        place_members(ck, (int)(object->kind - grammar_kinds), index, value->node);
 }
 
 /* The pair's value goes to its field. False: something of it was reported. */

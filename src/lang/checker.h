@@ -147,8 +147,11 @@ const struct binding *define_parameter(struct checker *ck, struct parameter *par
 /* The presets, read at the first call. */
 struct definitions *define_presets(struct checker *ck);
 
-/* Warns of names that nothing uses, and reports values from outside for parameters that are not there. */
-void define_check_used(struct checker *ck);
+/* Reports values from outside for parameters that are not there. */
+void define_check_given(struct checker *ck);
+
+/* Warns of names that nothing uses. */
+void define_warn_unused(struct checker *ck);
 
 /* ---- include.c ---- */
 
@@ -172,6 +175,9 @@ enum quantity_result loop_condition(struct checker *ck, const struct node *node,
 void place_item(struct checker *ck, const struct node *node);
 void place_list(struct checker *ck, const struct node *list);
 
+/* The same of the value of a key, both by their numbers, so that messages know where it stands. */
+void place_members(struct checker *ck, int kind, int key, const struct node *list);
+
 /* What a parameter is where nobody sets it, of the value that it is declared with. */
 const struct node *place_default(const struct node *declared);
 
@@ -193,6 +199,9 @@ const char *found_text(struct checker *ck, const struct node *node);
 
 /* The text, or its beginning and `...`: for messages. */
 const char *short_text(struct checker *ck, const char *text);
+
+/* The index of the key that a word was probably meant to be, or -1. */
+int meant_key(const struct grammar_kind *kind, const char *word);
 
 /* The index of the key that was probably meant, or -1. Marks a key under which it belongs as meant. */
 int report_unknown_key(struct checker *ck, const struct grammar_kind *kind, struct mapping *mapping, const struct node *key);

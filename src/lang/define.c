@@ -191,7 +191,7 @@ static void rehearse_template(struct checker *ck, const struct object_value *tem
         bindings[scope.count++] = (struct binding){.name = node_resolve(name)->text, .kind = BINDING_UNKNOWN};
     }
     ck->scope = &scope;
-    if (objects) place_list(ck, objects->node);
+    if (objects) place_members(ck, KIND_TEMPLATE, KEY_TEMPLATE_OBJECTS, objects->node);
     ck->rehearsing = false;
     arena_release(ck->arena, before);
     ck->arena = kept;
@@ -262,7 +262,10 @@ static void read_animation(struct checker *ck, const struct node *value) {
 }
 
 static void declare_pair(struct checker *ck, const struct unit *unit, const char *word, const struct node *value) {
-    if (node_is_null(value)) return;
+    if (node_is_null(value)) {
+        ck->names_lost |= strcmp(word, "materials") == 0;
+        return;
+    }
     if (strcmp(word, "params") == 0) declare_parameters(ck, value);
     else if (strcmp(word, "define") == 0) declare(ck, &ck->templates, &grammar_kinds[KIND_TEMPLATE], value);
     else if (strcmp(word, "materials") == 0) declare(ck, &ck->materials, &grammar_kinds[KIND_MATERIAL], value);
@@ -270,11 +273,18 @@ static void declare_pair(struct checker *ck, const struct unit *unit, const char
     else if (strcmp(word, "animation") == 0 && !unit->includer && !ck->animation) read_animation(ck, value);
 }
 
+/* The names under a misspelt key are known all the same: the key alone is reported. */
+static const char *meant_word(const char *word) {
+    const struct grammar_kind *file = &grammar_kinds[KIND_FILE];
+    const int meant = grammar_find_key(file, word) < 0 ? meant_key(file, word) : -1;
+    return meant < 0 ? word : file->keys[meant].name;
+}
+
 void define_names(struct checker *ck, struct unit *unit) {
     if (unit->root->kind != NODE_MAPPING) return;
     const struct node *name = unit->declared ? unit->declared->next->next : unit->root->first;
     for (; name; name = name->next->next) {
-        if (node_resolve(name)->kind == NODE_SCALAR) declare_pair(ck, unit, node_resolve(name)->text, name->next);
+        if (node_resolve(name)->kind == NODE_SCALAR) declare_pair(ck, unit, meant_word(node_resolve(name)->text), name->next);
         unit->declared = name;
     }
     if (unit->includer) return; /* read with those of the scene */
@@ -312,10 +322,12 @@ static void report_unknown_parameter(struct checker *ck, const char *name) {
     diag_note(ck->diag, d, *all ? "its parameters: %s" : "it has none: `params: {%s: 1}` makes one", *all ? all : short_text(ck, name));
 }
 
-void define_check_used(struct checker *ck) {
+void define_check_given(struct checker *ck) {
     for (size_t i = 0; i < ck->input->define_count; i++)
         if (!table_find(&ck->parameters, ck->input->defines[i].name)) report_unknown_parameter(ck, ck->input->defines[i].name);
-    if (ck->diag->errors > 0) return;
+}
+
+void define_warn_unused(struct checker *ck) {
     for (const struct parameter *p = ck->first_parameter; p; p = p->next)
         if (!p->used && p->span.source == ck->input->source)
             diag_help(ck->diag, diag_warning(ck->diag, p->span, "unused-definition", "the parameter `%s` is never used", p->name), "use it, or remove it");

@@ -165,6 +165,12 @@ static struct spelling nearest_key(const struct grammar_kind *kind, const char *
     return s;
 }
 
+int meant_key(const struct grammar_kind *kind, const char *word) {
+    const int instead = key_instead(kind, word, false);
+    const struct spelling s = nearest_key(kind, word);
+    return instead >= 0 || !s.best || s.distance == 0 ? instead : grammar_find_key(kind, s.best);
+}
+
 /* The help for an unknown key, the surest first; returns the key that was meant, or -1. */
 static int help_unknown(struct checker *ck, struct diagnostic *d, const struct grammar_kind *kind, struct mapping *mapping, const struct node *key) {
     const char *word = node_resolve(key)->text;

@@ -46,6 +46,13 @@ void place_list(struct checker *ck, const struct node *list) {
     for (const struct node *item = n->first; item && !ck->stopped; item = item->next) place_item(ck, item);
 }
 
+void place_members(struct checker *ck, int kind, int key, const struct node *list) {
+    const struct surrounding outer = ck->around;
+    ck->around = (struct surrounding){&grammar_kinds[kind], &grammar_kinds[kind].keys[key]};
+    place_list(ck, list);
+    ck->around = outer;
+}
+
 /* ---- Templates ---- */
 
 struct use {
@@ -150,7 +157,7 @@ static void open_template(struct checker *ck, const struct object_value *object,
     ck->diag->frame = &use.frame;
     bool again = is_live(ck) && sink->open_use(sink->context, object, known ? &contents : NULL) == LANG_USE_READ;
     while (again) {
-        place_list(ck, values_of(template->object, KEY_TEMPLATE_OBJECTS));
+        place_members(ck, KIND_TEMPLATE, KEY_TEMPLATE_OBJECTS, values_of(template->object, KEY_TEMPLATE_OBJECTS));
         again = sink->close_use(sink->context) && is_live(ck);
     }
     ck->diag->frame = use.frame.outer;
@@ -178,7 +185,7 @@ static void place_group(struct checker *ck, const struct object_value *object) {
     const struct lang_sink *sink = ck->input->sink;
     const bool live = is_live(ck);
     if (live) sink->open_group(sink->context, object);
-    place_list(ck, object->fields[KEY_OBJECT_GROUP]->node);
+    place_members(ck, KIND_OBJECT, KEY_OBJECT_GROUP, object->fields[KEY_OBJECT_GROUP]->node);
     if (live) sink->close_group(sink->context);
 }
 

@@ -102,9 +102,9 @@ static void help_scalar(struct checker *ck, struct diagnostic *d, const char *te
     const char *what = NULL, *mended = mend_lookalike(ck, text, &what);
     if (mended) diag_help(ck->diag, d, "it has %s in it: did you mean %s?", what, mended);
     else if (help_base(ck, d, text) || help_unit(ck, d, text)) return;
-    else if (scope_is_name(text)) help_variable(ck, d, text);
     else if (spelling_distance(text, ".inf") <= 1 || spelling_distance(text, ".nan") <= 1 || spelling_distance(text, "-.inf") <= 1)
         diag_help(ck->diag, d, "a number is finite");
+    else if (scope_is_name(text)) help_variable(ck, d, text);
 }
 
 static void report_no_number(struct checker *ck, const struct grammar_key *key, const struct node *node) {
@@ -176,7 +176,8 @@ static enum quantity_result read_number(struct checker *ck, const struct grammar
     struct quantity q;
     if (n->kind == NODE_SCALAR && scalar_number(ck, n->text, out)) return QUANTITY_OK;
     if (n->kind == NODE_SCALAR && scalar_is_number(n->text)) return report_bad_number(ck, key, node);
-    enum quantity_result result = n->kind == NODE_SEQUENCE ? QUANTITY_NONE : scope_quantity(ck, key->name, node, &q);
+    const bool truth = n->kind == NODE_SCALAR && (strcmp(n->text, "true") == 0 || strcmp(n->text, "false") == 0);
+    enum quantity_result result = n->kind == NODE_SEQUENCE || truth ? QUANTITY_NONE : scope_quantity(ck, key->name, node, &q);
     if (result == QUANTITY_OK && q.count == 1) *out = q.v[0];
     else if (result == QUANTITY_OK || result == QUANTITY_NONE) {
         report_no_number(ck, key, node);

@@ -98,9 +98,17 @@ static struct span span_within(const struct node *n, size_t offset, size_t lengt
     return span;
 }
 
+/* In `{center: max(1, 2)}` YAML ends the value at the comma. */
+static bool is_cut_by_comma(const struct node *n, const struct expr_error *error) {
+    const size_t end = n->span.source ? source_offset(n->span) + n->count : 0;
+    return !n->quoted && error->offset < n->count && strchr("([", n->text[error->offset]) && end < n->span.source->size &&
+           n->span.source->text[end] == ',';
+}
+
 static enum quantity_result report(struct checker *ck, const char *what, const struct node *n, const struct expr_error *error) {
     struct diagnostic *d = diag_error(ck->diag, span_within(n, error->offset, error->length), error->code, "`%s`: %s", what, error->message);
-    if (error->help) diag_help(ck->diag, d, "%s", error->help);
+    if (is_cut_by_comma(n, error)) diag_help(ck->diag, d, "a comma ends the value here: put it all into quotes, or a list into [ ]");
+    else if (error->help) diag_help(ck->diag, d, "%s", error->help);
     return QUANTITY_WRONG;
 }
 
@@ -117,6 +125,9 @@ static const struct expr *parse(struct checker *ck, const struct node *n, struct
 /* Whether somebody who wrote this meant to compute something. */
 static bool looks_computed(const struct node *n) {
     if (n->count > 0 && n->text[0] == '#') return false;
+    if (n->text[strspn(n->text, "+-.0123456789 ")] == '%' && n->text[n->count - 1] == '%') return false; /* a percentage */
+    for (const char *c = n->text; *c; c++)
+        if (iscntrl((unsigned char)*c)) return false;
     return strpbrk(n->text, "*/()<>?^=&|[%") || strstr(n->text, " + ") || strstr(n->text, " - ");
 }
 
