@@ -37,12 +37,15 @@ static void collect_item(struct checker *ck, struct collection *c, const struct 
     const struct binding *b = scope_stands_for(ck, item);
     if (b && b->kind == BINDING_UNKNOWN) return;
     const struct scope *outer = ck->scope;
+    const struct diag_frame frame = scope_frame(ck, item);
     if (b) ck->scope = b->scope;
+    if (b) ck->diag->frame = &frame;
     c->item = b ? b->node : item;
     const struct node *n = node_resolve(c->item);
     const struct node *loop = n->kind == NODE_MAPPING && grammar_find_key(c->kind, "for") >= 0 ? node_get(n, "for") : NULL;
     if (loop) loop_run(ck, loop, collect, c);
     else collect(ck, c);
+    ck->diag->frame = frame.outer;
     ck->scope = outer;
 }
 
@@ -169,10 +172,13 @@ static bool check_value(struct checker *ck, const struct grammar_key *key, const
         out->node = node; /* place.c follows it */
         return true;
     }
-    if (!place_descend(ck, node)) return false;
+    if (!place_descend(ck, node->span)) return false;
     const struct scope *outer = ck->scope;
+    const struct diag_frame frame = scope_frame(ck, node);
     ck->scope = b->scope;
+    ck->diag->frame = &frame;
     const bool good = check_value(ck, key, b->node, out);
+    ck->diag->frame = frame.outer;
     ck->scope = outer;
     ck->depth--;
     return good;
@@ -265,7 +271,7 @@ static bool check_pair(struct checker *ck, struct object_value *object, struct m
 static void check_required(struct checker *ck, struct object_value *object, const struct mapping *mapping) {
     for (int i = 0; i < object->kind->key_count; i++) {
         const struct grammar_key *key = &object->kind->keys[i];
-        if (!key->required || mapping->given[i]) continue;
+        if (!key->required || mapping->given[i] || (ck->included && object->kind == &grammar_kinds[KIND_FILE])) continue;
         object->failed = true;
         if (mapping->meant[i]) continue; /* reported as an unknown key */
         struct diagnostic *d = diag_error(ck->diag, object->span, "missing-key", "%s needs the key `%s`", object->kind->title, key->name);

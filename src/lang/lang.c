@@ -71,13 +71,13 @@ static struct unit *read_scene(struct checker *ck) {
 
 /* What an included file has besides definitions is for when it is rendered itself: no slip in it passes. */
 static void check_included(struct checker *ck) {
-    ck->rehearsing = true;
+    ck->rehearsing = ck->included = true;
     for (const struct unit *unit = ck->units; unit; unit = unit->next)
         if (unit->includer && unit->root && unit->root->kind == NODE_MAPPING) {
             const struct object_value *file = check_object(ck, &grammar_kinds[KIND_FILE], unit->root);
             if (file && file->fields[KEY_FILE_SCENE]) place_members(ck, KIND_FILE, KEY_FILE_SCENE, file->fields[KEY_FILE_SCENE]->node);
         }
-    ck->rehearsing = false;
+    ck->rehearsing = ck->included = false;
 }
 
 static struct object_list named_materials(struct checker *ck) {
