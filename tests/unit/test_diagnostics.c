@@ -7,7 +7,7 @@
 
 #define CODE(code) "\"code\": \"" code "\""
 
-static const struct monge_limits small = {.file_bytes = 10000, .memory_bytes = 140000};
+static const struct monge_load_options small = {.limits = {.file_bytes = 10000, .memory_bytes = 300000}};
 
 /* Valid until the next call. */
 static const char *document(const struct monge_diagnostics *diag, enum monge_format format) {
