@@ -126,7 +126,7 @@ static bool bind_arguments(struct checker *ck, const struct node *parameters, co
     return good;
 }
 
-/* What the objects of the use depend on. False: on more than can be told. */
+/* What the objects of the use depend on. False: on more than can be told, *hash is of the template. */
 static bool use_contents(const struct definition *template, const struct scope *arguments, struct hash *hash) {
     hash_begin(hash);
     hash_integer(hash, template->number);
@@ -143,6 +143,8 @@ static bool use_contents(const struct definition *template, const struct scope *
             hash_integer(hash, n->count);
             hash_bytes(hash, n->text, n->count);
         } else {
+            hash_begin(hash);
+            hash_integer(hash, template->number);
             return false;
         }
     }
@@ -152,13 +154,13 @@ static bool use_contents(const struct definition *template, const struct scope *
 static void open_template(struct checker *ck, const struct object_value *object, const struct definition *template, const struct scope *arguments) {
     const struct lang_sink *sink = ck->input->sink;
     struct hash contents;
-    const bool known = use_contents(template, arguments, &contents);
+    const bool exact = use_contents(template, arguments, &contents);
     if (!place_descend(ck, object_span(object, KEY_OBJECT_USE))) return;
     struct use use = {{object_span(object, KEY_OBJECT_USE), use_text, ck->diag->frame}, template->name, arguments};
     const struct scope *outer = ck->scope;
     ck->scope = arguments;
     ck->diag->frame = &use.frame;
-    bool again = is_live(ck) && sink->open_use(sink->context, object, known ? &contents : NULL) == LANG_USE_READ;
+    bool again = is_live(ck) && sink->open_use(sink->context, object, &contents, exact) == LANG_USE_READ;
     while (again) {
         place_members(ck, KIND_TEMPLATE, KEY_TEMPLATE_OBJECTS, values_of(template->object, KEY_TEMPLATE_OBJECTS));
         again = sink->close_use(sink->context) && is_live(ck);

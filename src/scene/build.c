@@ -63,11 +63,11 @@ static void open_group(void *context, const struct object_value *object) {
 
 static void close_group(void *context) { level_close(context); }
 
-static enum lang_use open_use(void *context, const struct object_value *object, const struct hash *contents) {
+static enum lang_use open_use(void *context, const struct object_value *object, const struct hash *contents, bool exact) {
     struct builder *b = context;
     const struct object_value *bounds = object_object(object, KEY_OBJECT_BOUNDS);
     if (bounds) diag_help(b->diag, diag_error(b->diag, bounds->span, "bounds-of-no-quadric", "`bounds` cut a quadric; a template has none"), "move them to the quadric");
-    return instances_open(b, object, contents);
+    return instances_open(b, object, contents, exact);
 }
 
 static bool close_use(void *context) { return instances_close(context); }

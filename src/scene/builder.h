@@ -25,9 +25,9 @@ struct builder {
     struct arena *arena; /* of the scene */
     struct diagnostics *diag;
     struct scene *scene;
-    struct set *set;
+    struct set *set, *free_sets;
     struct level *level, *free_levels;
-    struct table placed, inline_materials; /* by their contents */
+    struct table placed, geometries, inline_materials; /* by their contents */
     uint32_t *named_materials, named_room; /* index into the scene's materials by definition */
     uint32_t material_room, geometry_room;
     uint32_t default_material; /* its index once it is needed; else NO_MATERIAL */
@@ -66,7 +66,7 @@ void instance_add(struct builder *b, struct span span, affine world_from_object,
 
 /* ---- instances.c: what becomes of a template in use ---- */
 
-enum lang_use instances_open(struct builder *b, const struct object_value *object, const struct hash *contents);
+enum lang_use instances_open(struct builder *b, const struct object_value *object, const struct hash *contents, bool exact);
 bool instances_close(struct builder *b);
 
 /* Forgets what was gathered since there were `geometries` of them. */

@@ -79,6 +79,14 @@ static void hash_primitives(struct hash *hash, const struct scene *scene, const 
     }
 }
 
+void primitives_hash(const struct primitives *p, struct hash *hash) {
+    hash_integer(hash, p->count);
+    for (uint32_t i = 0; i < p->count; i++) {
+        hash_integer(hash, material_of(p, i));
+        hash_primitive(hash, p, &p->info[i]);
+    }
+}
+
 void scene_hash(const struct scene *scene, struct hash *hash) {
     hash_integer(hash, scene->two_sided);
     hash_integer(hash, scene->highlight_always);

@@ -61,6 +61,9 @@ struct scene {
 struct builder *scene_begin(struct arena *arena, struct diagnostics *diag, struct scene *scene, struct lang_sink *sink);
 bool scene_end(struct builder *builder, const struct lang_result *description);
 
+/* Adds the shapes of a set to the hash, and their materials by number. */
+void primitives_hash(const struct primitives *p, struct hash *hash);
+
 /* Adds what a material is to the hash. */
 void material_hash(const struct material *material, struct hash *hash);
 
