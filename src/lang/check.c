@@ -138,8 +138,9 @@ static bool check_values(struct checker *ck, const struct grammar_key *key, cons
 static bool check_written(struct checker *ck, const struct grammar_key *key, const struct node *node, struct value *out);
 
 /* In a rehearsal: what stands for a value that is not known. */
-static void take_any(struct checker *ck, const struct grammar_key *key, struct value *out) {
+static void take_any(struct checker *ck, const struct grammar_key *key, const struct node *node, struct value *out) {
     out->is_object = key->type == GRAMMAR_OBJECT;
+    if (key->type == GRAMMAR_LIST && key->of == &grammar_kinds[KIND_OBJECT]) out->node = node;
     if (!out->is_object) return;
     out->object = arena_alloc(ck->arena, sizeof *out->object);
     *out->object = (struct object_value){.kind = key->of, .span = out->span, .failed = true};
@@ -165,7 +166,7 @@ static bool check_value(struct checker *ck, const struct grammar_key *key, const
     out->span = node->span;
     if (!b) return check_written(ck, key, node, out);
     if (b->kind == BINDING_UNKNOWN) {
-        take_any(ck, key, out);
+        take_any(ck, key, node, out);
         return ck->rehearsing;
     }
     if (key->type == GRAMMAR_LIST && key->of == &grammar_kinds[KIND_OBJECT]) {

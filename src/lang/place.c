@@ -48,8 +48,11 @@ void place_list(struct checker *ck, const struct node *list) {
 
 void place_members(struct checker *ck, int kind, int key, const struct node *list) {
     const struct surrounding outer = ck->around;
+    struct arena *arena = ck->arena;
     ck->around = (struct surrounding){&grammar_kinds[kind], &grammar_kinds[kind].keys[key]};
+    ck->arena = &ck->memory->scratch; /* each object leaves nothing behind */
     place_list(ck, list);
+    ck->arena = arena;
     ck->around = outer;
 }
 

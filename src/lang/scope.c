@@ -36,7 +36,7 @@ static const struct binding *find_moving(struct checker *ck, const char *name) {
     return b;
 }
 
-const struct binding *scope_find(struct checker *ck, const char *name) {
+static const struct binding *find(struct checker *ck, const char *name) {
     for (const struct scope *s = ck->scope; s; s = s->outer)
         for (unsigned i = s->count; i-- > 0;)
             if (strcmp(s->bindings[i].name, name) == 0) return &s->bindings[i];
@@ -45,6 +45,13 @@ const struct binding *scope_find(struct checker *ck, const char *name) {
     const struct binding *found = find_moving(ck, name);
     if (!found && ck->provisional) ck->waiting = true;
     return found;
+}
+
+/* In a rehearsal no variable has a value: it may be of a turn that there is not. */
+const struct binding *scope_find(struct checker *ck, const char *name) {
+    static const struct binding unknown = {.name = "", .kind = BINDING_UNKNOWN};
+    const struct binding *b = find(ck, name);
+    return b && ck->rehearsing ? &unknown : b;
 }
 
 static const char *frame_text(struct arena *arena, const struct diag_frame *frame) {
