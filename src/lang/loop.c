@@ -44,11 +44,17 @@ static const char *turn_text(struct arena *arena, const struct diag_frame *frame
 
 static void run_variables(struct loop *loop, const struct node *name);
 
+/* The variables after `name`. The turns of the last are counted as its objects. */
+static void run_rest(struct loop *loop, const struct node *name) {
+    const struct node *next = name->next->next;
+    if (!next || place_count_step(loop->ck, next)) run_variables(loop, next);
+}
+
 static void run_turn(struct loop *loop, const struct node *name, struct quantity value) {
     struct binding *b = &loop->bindings[loop->scope.count];
     *b = (struct binding){.name = node_resolve(name)->text, .kind = loop->ck->rehearsing ? BINDING_UNKNOWN : BINDING_QUANTITY, .quantity = value};
     loop->scope.count++;
-    run_variables(loop, name->next->next);
+    run_rest(loop, name);
     loop->scope.count--;
 }
 
@@ -107,7 +113,7 @@ static bool run_list(struct loop *loop, const struct node *name, const struct no
         ck->scope = here;
         if (!good) return false;
         loop->scope.count++;
-        run_variables(loop, name->next->next);
+        run_rest(loop, name);
         loop->scope.count--;
     }
     return true;

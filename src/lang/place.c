@@ -20,7 +20,7 @@ bool place_descend(struct checker *ck, struct span span) {
     return false;
 }
 
-static bool count_step(struct checker *ck, const struct node *node) {
+bool place_count_step(struct checker *ck, const struct node *node) {
     if (ck->stopped) return false;
     if (++ck->steps <= ck->input->limits.steps) return true;
     ck->stopped = true;
@@ -216,7 +216,7 @@ static void rehearse(struct checker *ck, const struct node *node) {
 /* The object as it is in this turn. */
 static void place_turn(struct checker *ck, void *context) {
     const struct node *node = context, *n = node_resolve(node), *when = node_get(n, "when");
-    if (!count_step(ck, node)) return;
+    if (!place_count_step(ck, node)) return;
     const struct arena_mark before = arena_mark(ck->arena);
     bool holds = true;
     const enum quantity_result known = when && !node_is_null(when) ? loop_condition(ck, when, &holds) : QUANTITY_OK;
