@@ -20,7 +20,7 @@ static void collect(struct checker *ck, void *context) {
     struct collection *c = context;
     const struct node *when = node_resolve(c->item)->kind == NODE_MAPPING ? node_get(node_resolve(c->item), "when") : NULL;
     bool holds = true;
-    if (ck->stopped || ++ck->steps > ck->input->limits.steps) return; /* reported by place.c, or with the next object */
+    if (!place_count_step(ck, c->item)) return;
     if (when && grammar_find_key(c->kind, "when") >= 0 && loop_condition(ck, when, &holds) == QUANTITY_OK && !holds) return;
     struct object_value *object = check_object(ck, c->kind, c->item);
     if (!object) return;

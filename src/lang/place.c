@@ -21,7 +21,7 @@ bool place_descend(struct checker *ck, struct span span) {
 }
 
 /* What a file writes out is bounded by its size: only what is repeated counts. */
-static bool count_step(struct checker *ck, const struct node *node) {
+bool place_count_step(struct checker *ck, const struct node *node) {
     if (ck->stopped) return false;
     if (ck->depth == 0 && !ck->scope) return true;
     if (++ck->steps <= ck->input->limits.steps) return true;
@@ -50,8 +50,11 @@ void place_list(struct checker *ck, const struct node *list) {
 
 void place_members(struct checker *ck, int kind, int key, const struct node *list) {
     const struct surrounding outer = ck->around;
+    struct arena *arena = ck->arena;
     ck->around = (struct surrounding){&grammar_kinds[kind], &grammar_kinds[kind].keys[key]};
+    ck->arena = &ck->memory->scratch; /* each object leaves nothing behind */
     place_list(ck, list);
+    ck->arena = arena;
     ck->around = outer;
 }
 
@@ -218,7 +221,7 @@ static void rehearse(struct checker *ck, const struct node *node) {
 /* The object as it is in this turn. */
 static void place_turn(struct checker *ck, void *context) {
     const struct node *node = context, *n = node_resolve(node), *when = node_get(n, "when");
-    if (!count_step(ck, node)) return;
+    if (!place_count_step(ck, node)) return;
     const struct arena_mark before = arena_mark(ck->arena);
     bool holds = true;
     const enum quantity_result known = when && !node_is_null(when) ? loop_condition(ck, when, &holds) : QUANTITY_OK;

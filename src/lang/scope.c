@@ -41,7 +41,7 @@ static const struct binding *find_moving(struct checker *ck, const char *name) {
 /* Whether a name that is not there yet can be that of a parameter, or of the animation. */
 static bool may_come(const char *name) { return which_moving(name) < 3 || !define_name_taken(name); }
 
-const struct binding *scope_find(struct checker *ck, const char *name) {
+static const struct binding *find(struct checker *ck, const char *name) {
     for (const struct scope *s = ck->scope; s; s = s->outer)
         for (unsigned i = s->count; i-- > 0;)
             if (strcmp(s->bindings[i].name, name) == 0) return &s->bindings[i];
@@ -50,6 +50,13 @@ const struct binding *scope_find(struct checker *ck, const char *name) {
     const struct binding *found = find_moving(ck, name);
     if (!found && ck->provisional && may_come(name)) ck->waiting = true;
     return found;
+}
+
+/* In a rehearsal no variable has a value: it may be of a turn that there is not. */
+const struct binding *scope_find(struct checker *ck, const char *name) {
+    static const struct binding unknown = {.name = "", .kind = BINDING_UNKNOWN};
+    const struct binding *b = find(ck, name);
+    return b && ck->rehearsing ? &unknown : b;
 }
 
 static const char *frame_text(struct arena *arena, const struct diag_frame *frame) {
