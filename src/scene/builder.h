@@ -11,13 +11,15 @@ struct level {
     const struct object_value *material;
     const struct object_value *use; /* that placed the level; NULL: a group */
     struct placed *placed;          /* of a use whose objects are gathered; else NULL */
+    const char *name;               /* the innermost around; NULL: none */
+    uint32_t template;              /* the innermost around, or ORIGIN_NO_TEMPLATE */
     struct level *outer;
 };
 
 /* A set of primitives that is being filled: the scene's, or a geometry's. */
 struct set {
     struct primitives primitives;
-    uint32_t info_room, sphere_room, flat_room, quadric_room, instance_room; /* of the arrays */
+    uint32_t info_room, sphere_room, flat_room, quadric_room, instance_room, use_room; /* of the arrays */
     struct set *outer;
 };
 
@@ -29,7 +31,8 @@ struct builder {
     struct level *level, *free_levels;
     struct table placed, inline_materials; /* by their contents */
     uint32_t *named_materials, named_room; /* index into the scene's materials by definition */
-    uint32_t material_room, geometry_room;
+    uint32_t material_room, material_info_room, geometry_room, template_room;
+    uint32_t origin; /* of what is placed now */
     uint32_t default_material; /* its index once it is needed; else NO_MATERIAL */
     uint32_t *geometry_height, *geometry_weight, height_room, weight_room; /* of each geometry, see instances.c */
     struct set marked; /* at the mark: its counts */
@@ -63,6 +66,17 @@ void shape_build(struct builder *b, const struct object_value *shape, const stru
 
 /* Adds an instance of a geometry of the scene. */
 void instance_add(struct builder *b, struct span span, affine world_from_object, uint32_t geometry, uint32_t material);
+
+/* ---- places.c: where things were written ---- */
+
+/* What is placed from now on comes from this object. */
+void place_origin(struct builder *b, const struct object_value *object);
+
+/* The index of the template that is used, with its name in the scene. */
+uint32_t place_template(struct builder *b, const struct object_value *use);
+
+/* Makes all places of the scene outlive the load. */
+void places_keep(struct builder *b);
 
 /* ---- instances.c: what becomes of a template in use ---- */
 

@@ -25,20 +25,28 @@ static struct placed *find_placed(struct builder *b, const struct hash *contents
 }
 
 /* The use as an instance, at the place of the level that is open for it. */
-static void add_instance(struct builder *b, struct span span, uint32_t geometry) {
-    instance_add(b, span, b->level->world_from_node, geometry, material_index(b, b->level->material));
+static void add_instance(struct builder *b, const struct object_value *use, uint32_t geometry) {
+    place_origin(b, use);
+    instance_add(b, use->span, b->level->world_from_node, geometry, material_index(b, b->level->material));
+}
+
+static void count_use(struct builder *b) {
+    struct primitives *p = &b->set->primitives;
+    p->uses = builder_grow(b, p->uses, p->use_count, &b->set->use_room, sizeof *p->uses);
+    p->uses[p->use_count++] = b->level->template;
 }
 
 enum lang_use instances_open(struct builder *b, const struct object_value *object, const struct hash *contents) {
     struct placed *placed = contents ? find_placed(b, contents) : NULL;
     level_open(b, object, placed);
+    count_use(b);
     if (!placed || placed->state == PLACED_CARRIED_OUT) return LANG_USE_READ;
     if (placed->state == PLACED_GATHERED) {
-        add_instance(b, object->span, placed->geometry);
+        add_instance(b, object, placed->geometry);
         level_close(b);
         return LANG_USE_PLACED;
     }
-    level_push(b, (struct level){.world_from_node = AFFINE_IDENTITY, .use = object, .placed = placed});
+    level_push(b, (struct level){.world_from_node = AFFINE_IDENTITY, .use = object, .placed = placed, .template = b->level->template});
     struct set *set = arena_alloc(b->arena, sizeof *set);
     set->outer = b->set;
     b->set = set;
@@ -89,7 +97,7 @@ bool instances_close(struct builder *b) {
     }
     placed->state = PLACED_GATHERED;
     placed->geometry = add_geometry(b, p, height, weight);
-    add_instance(b, use->span, placed->geometry);
+    add_instance(b, use, placed->geometry);
     level_close(b);
     return false;
 }
