@@ -39,12 +39,16 @@ void level_open(struct builder *b, const struct object_value *object, struct pla
     level_push(b, (struct level){.world_from_node = world_from_object(b, object),
                                  .material = material_of_object(b, object),
                                  .placed = placed,
+                                 .own = object_object(object, KEY_OBJECT_MATERIAL),
+                                 .own_span = object_span(object, KEY_OBJECT_MATERIAL),
+                                 .count = b->set->primitives.count,
                                  .name = name ? name : b->level->name,
                                  .template = object_has(object, KEY_OBJECT_USE) ? place_template(b, object) : b->level->template});
 }
 
 void level_close(struct builder *b) {
     struct level *level = b->level;
+    if (level->own && b->set->primitives.count > level->count) material_hold(b, level->own, level->own_span);
     b->level = level->outer;
     level->outer = b->free_levels;
     b->free_levels = level;
@@ -125,8 +129,9 @@ bool scene_end(struct builder *b, const struct lang_result *description) {
     settings_build(b, file);
     camera_build(b, file);
     lights_build(b, file);
-    for (uint32_t i = 0; i < description->materials.count; i++) material_index(b, description->materials.items[i]);
+    for (uint32_t i = 0; i < description->materials.count; i++) material_add_named(b, description->materials.items[i]);
     b->scene->primitives = b->set->primitives;
+    materials_check(b);
     places_keep(b);
     if (b->diag->errors == errors && !file->failed) warn_nothing_seen(b, file);
     return b->diag->errors == errors && !file->failed;

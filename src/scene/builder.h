@@ -13,6 +13,9 @@ struct level {
     struct placed *placed;          /* of a use whose objects are gathered; else NULL */
     const char *name;               /* the innermost around; NULL: none */
     uint32_t template;              /* the innermost around, or ORIGIN_NO_TEMPLATE */
+    const struct object_value *own; /* material that was given here; NULL: none */
+    struct span own_span;
+    uint32_t count; /* of primitives in the set before it was opened */
     struct level *outer;
 };
 
@@ -58,6 +61,15 @@ void lights_check(struct builder *b, const struct object_value *file);
 
 /* The index of the material that an object is given, or that it has by default (NULL). */
 uint32_t material_index(struct builder *b, const struct object_value *material);
+
+/* Adds a material that has a name, whether or not an object has it, so that its mistakes are reported. */
+void material_add_named(struct builder *b, const struct object_value *material);
+
+/* Remembers that a group with members has the material. */
+void material_hold(struct builder *b, const struct object_value *material, struct span span);
+
+/* Warns of materials of groups that none of the members takes; after all objects are built. */
+void materials_check(struct builder *b);
 
 /* Adds the primitive of a shape (`shape`: a mapping of kind sphere, box, ...), with
  * world_from_node the transform of the node that has it. `bounds`: the node's, or NULL. */

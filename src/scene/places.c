@@ -37,10 +37,15 @@ static void keep_spans(struct builder *b, struct span **spans, uint32_t count) {
 void places_keep(struct builder *b) {
     struct scene *scene = b->scene;
     uint32_t count = 0;
-    struct span **spans = arena_array(b->arena, scene->light_count + scene->material_count + 2, sizeof *spans);
+    struct span **spans = arena_array(b->arena, scene->light_count + 2 * scene->material_count + 2, sizeof *spans);
     spans[count++] = &scene->camera_span;
     spans[count++] = &scene->eye_span;
     for (uint32_t i = 0; i < scene->light_count; i++) spans[count++] = &scene->light_spans[i];
-    for (uint32_t i = 0; i < scene->material_count; i++) spans[count++] = &scene->material_info[i].span;
+    for (uint32_t i = 0; i < scene->material_count; i++) {
+        spans[count++] = &scene->material_info[i].span;
+        spans[count++] = &scene->material_info[i].held;
+    }
     keep_spans(b, spans, count);
 }
+
+const char *scene_kind_title(uint32_t kind) { return grammar_kinds[kind].title; }

@@ -44,6 +44,8 @@ struct material {
 struct material_info {
     const char *name; /* NULL: written where it is used, or the default one */
     struct span span; /* source NULL: the default one */
+    bool given;       /* an object has it, its own or from around; not just another material */
+    struct span held; /* a group that has it and members; source NULL: none */
 };
 
 struct scene {
@@ -77,6 +79,12 @@ bool scene_end(struct builder *builder, const struct lang_result *description);
 
 /* Adds what a material is to the hash. */
 void material_hash(const struct material *material, struct hash *hash);
+
+/* Adds what a primitive is, in its place, to the hash: equal for two that meet every ray alike. */
+void shape_hash(const struct primitives *p, primitive_ref ref, struct hash *hash);
+
+/* "a sphere": what a kind of an origin is called. */
+const char *scene_kind_title(uint32_t kind);
 
 /* Adds everything of the scene that can change a pixel, except the settings, to the hash. */
 void scene_hash(const struct scene *scene, struct hash *hash);

@@ -222,8 +222,23 @@ static uint32_t add_material(struct builder *b, struct material material, struct
     return scene->material_count++;
 }
 
+/* Of a material that an object has: what it takes over from another one may well be idle. */
+static void warn_idle(struct builder *b, const struct object_value *m) {
+    static const struct {
+        int key, needs;
+    } pairs[] = {{KEY_MATERIAL_SHININESS, KEY_MATERIAL_SPECULAR}, {KEY_MATERIAL_INDEX, KEY_MATERIAL_REFRACTION}};
+    if (m->failed || object_has(m, KEY_MATERIAL_EXTENDS) || object_has(m, KEY_MATERIAL_PRESET) || diag_full(b->diag)) return;
+    for (int i = 0; i < 2; i++) {
+        if (!object_has(m, pairs[i].key) || object_has(m, pairs[i].needs)) continue;
+        const char *key = m->kind->keys[pairs[i].key].name, *needs = m->kind->keys[pairs[i].needs].name;
+        struct diagnostic *d = diag_warning(b->diag, object_span(m, pairs[i].key), "no-effect", "`%s` has no effect without `%s`", key, needs);
+        diag_help(b->diag, d, "give the material a `%s`, or remove `%s`", needs, key);
+    }
+}
+
 /* Materials written in place are often the same: of those one is enough. */
-static uint32_t inline_material(struct builder *b, struct material material, struct span span) {
+static uint32_t inline_material(struct builder *b, const struct object_value *object) {
+    const struct material material = material_of(b, object);
     struct hash hash;
     char name[HASH_TEXT_SIZE];
     hash_begin(&hash);
@@ -232,7 +247,8 @@ static uint32_t inline_material(struct builder *b, struct material material, str
     const uint32_t *known = table_find(&b->inline_materials, name);
     if (known) return *known;
     uint32_t *index = arena_alloc(b->arena, sizeof *index);
-    *index = add_material(b, material, (struct material_info){NULL, span});
+    *index = add_material(b, material, (struct material_info){.span = object->span, .given = true});
+    warn_idle(b, object);
     table_put(b->arena, &b->inline_materials, arena_text(b->arena, name, HASH_TEXT_SIZE - 1), index);
     return *index;
 }
@@ -246,7 +262,24 @@ static uint32_t named_material(struct builder *b, const struct object_value *mat
     uint32_t *index = &b->named_materials[material->definition];
     if (*index != NO_MATERIAL) return *index;
     const char *name = arena_text(b->arena, material->name, strlen(material->name));
-    return *index = add_material(b, material_of(b, material), (struct material_info){name, material->span});
+    return *index = add_material(b, material_of(b, material), (struct material_info){.name = name, .span = material->span});
+}
+
+void material_add_named(struct builder *b, const struct object_value *material) { named_material(b, material); }
+
+void material_hold(struct builder *b, const struct object_value *material, struct span span) {
+    if (!material->name || material->failed) return;
+    struct material_info *info = &b->scene->material_info[named_material(b, material)];
+    if (!info->held.source) info->held = span;
+}
+
+void materials_check(struct builder *b) {
+    for (uint32_t i = 0; i < b->scene->material_count; i++) {
+        const struct material_info *info = &b->scene->material_info[i];
+        if (info->given || !info->held.source) continue;
+        struct diagnostic *d = diag_warning(b->diag, info->held, "unused-material", "`%s` can be seen on nothing: all that is in here has materials of its own", info->name);
+        diag_help(b->diag, d, "remove it, or the material of a member");
+    }
 }
 
 /* A light clay, with a soft highlight. */
@@ -254,8 +287,14 @@ static const struct material default_material = {
     .ambient = {0.62, 0.36, 0.22}, .diffuse = {0.62, 0.36, 0.22}, .specular = {0.25, 0.25, 0.25}, .shininess = 40, .index = 1};
 
 uint32_t material_index(struct builder *b, const struct object_value *material) {
-    if (material) return material->name ? named_material(b, material) : inline_material(b, material_of(b, material), material->span);
+    if (material && !material->name) return inline_material(b, material);
+    if (material) {
+        const uint32_t index = named_material(b, material);
+        if (!b->scene->material_info[index].given) warn_idle(b, material);
+        b->scene->material_info[index].given = true;
+        return index;
+    }
     if (b->set->outer) return MATERIAL_INHERITED;
-    if (b->default_material == NO_MATERIAL) b->default_material = add_material(b, default_material, (struct material_info){0});
+    if (b->default_material == NO_MATERIAL) b->default_material = add_material(b, default_material, (struct material_info){.given = true});
     return b->default_material;
 }
