@@ -16,6 +16,7 @@
 #include "lang/format.h"
 #include "lang/lang.h"
 #include "lang/stories.h"
+#include "render/examine.h"
 #include "render/render.h"
 #include "scene/scene.h"
 
@@ -213,6 +214,14 @@ bool monge_scene_prepare(struct monge_scene *scene) {
     else arena_release(&scene->arena, before);
     scene->arena.on_full = NULL;
     return scene->accel != NULL;
+}
+
+void monge_scene_examine(struct monge_scene *scene, struct monge_diagnostics *diag) {
+    jmp_buf full;
+    struct arena scratch = {.on_full = &full};
+    if (!monge_scene_prepare(scene)) return;
+    if (setjmp(full) == 0) examine_scene(&scene->scene, scene->accel, scene->frames > 0, &scratch, &diag->list);
+    arena_free(&scratch);
 }
 
 /* ---- Importing ---- */

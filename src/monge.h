@@ -124,6 +124,10 @@ size_t monge_scene_primitives(const struct monge_scene *scene);
  * False when there is no memory for it. */
 bool monge_scene_prepare(struct monge_scene *scene);
 
+/* Looks for what would render wrong, without rendering: nothing in view, the camera inside of a solid, objects and
+ * lights without effect. Each is a warning in diag. Prepares the scene; where there is no memory for that, nothing. */
+void monge_scene_examine(struct monge_scene *scene, struct monge_diagnostics *diag);
+
 /* ---- Scenes of others ---- */
 
 /* Writes the scene in `path`, in the YAML format of "The Ray Tracer Challenge", to `out_path` in our

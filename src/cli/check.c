@@ -20,12 +20,23 @@ static void print_verdict(const char *scene, const struct load *load) {
     streams_flush();
 }
 
+/* What is not wrong as a text, but would render wrong. */
+static void examine(struct load *load, struct report *report) {
+    struct monge_diagnostics *diag = load->scene ? report_open(report) : NULL;
+    if (!diag) return;
+    const unsigned warnings = monge_diagnostics_warnings(diag);
+    monge_scene_examine(load->scene, diag);
+    load->warnings += monge_diagnostics_warnings(diag) - warnings;
+    report_close(report, diag, true);
+}
+
 enum status check_command(const struct arguments *args) {
     struct report report;
     enum status worst = STATUS_YES;
     if (!report_begin(&report, args)) return STATUS_TROUBLE;
     for (size_t i = 0; i < args->count; i++) {
         struct load load = load_scene(args->operands[i], &report);
+        examine(&load, &report);
         monge_scene_free(load.scene);
         const bool wanted = load.status != STATUS_YES || !args->option[OPTION_QUIET].given;
         if (wanted && report.format == MONGE_FORMAT_TEXT) print_verdict(args->operands[i], &load);

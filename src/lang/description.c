@@ -2,6 +2,8 @@
 
 #include <string.h>
 
+#include "lang/checker.h"
+
 bool object_has(const struct object_value *object, int key) { return object->fields[key] != NULL; }
 
 double object_number(const struct object_value *object, int key) {
@@ -20,6 +22,12 @@ vec3 object_vec3(const struct object_value *object, int key) {
 
 const char *object_text(const struct object_value *object, int key) {
     return object->fields[key] ? object->fields[key]->text : NULL;
+}
+
+const char *object_reference(const struct object_value *object, int key, uint32_t *number) {
+    const struct definition *definition = object->fields[key] ? object->fields[key]->definition : NULL;
+    if (definition) *number = definition->number;
+    return definition ? definition->name : NULL;
 }
 
 const affine *object_matrix(const struct object_value *object, int key) {

@@ -27,9 +27,16 @@ static struct placed *find_placed(struct builder *b, struct table *table, const 
 }
 
 /* The use as an instance, at the place of the level that is open for it. */
-static void add_instance(struct builder *b, struct span span, const struct placed *placed) {
+static void add_instance(struct builder *b, const struct object_value *use, const struct placed *placed) {
     const uint32_t material = placed->material == MATERIAL_INHERITED ? material_index(b, b->level->material) : placed->material;
-    instance_add(b, span, b->level->world_from_node, placed->geometry, material);
+    place_origin(b, use);
+    instance_add(b, use->span, b->level->world_from_node, placed->geometry, material);
+}
+
+static void count_use(struct builder *b) {
+    struct primitives *p = &b->set->primitives;
+    p->uses = builder_grow(b, p->uses, p->use_count, &b->set->use_room, sizeof *p->uses);
+    p->uses[p->use_count++] = b->level->template;
 }
 
 /* A set to gather in: one that was closed before gives its room. */
@@ -38,7 +45,7 @@ static void open_set(struct builder *b) {
     if (set) b->free_sets = set->outer;
     else set = arena_alloc(b->arena, sizeof *set);
     struct primitives *p = &set->primitives;
-    p->count = p->sphere_count = p->flat_count = p->quadric_count = p->instance_count = 0;
+    p->count = p->sphere_count = p->flat_count = p->quadric_count = p->instance_count = p->use_count = 0;
     set->outer = b->set;
     b->set = set;
 }
@@ -53,13 +60,14 @@ static void close_set(struct builder *b) {
 enum lang_use instances_open(struct builder *b, const struct object_value *object, const struct hash *contents, bool exact) {
     struct placed *placed = find_placed(b, &b->placed, contents);
     level_open(b, object, placed);
+    count_use(b);
     if (placed->state == PLACED_CARRIED_OUT) return LANG_USE_READ;
     if (exact && placed->state == PLACED_GATHERED) {
-        add_instance(b, object->span, placed);
+        add_instance(b, object, placed);
         level_close(b);
         return LANG_USE_PLACED;
     }
-    level_push(b, (struct level){.world_from_node = AFFINE_IDENTITY, .use = object, .placed = placed});
+    level_push(b, (struct level){.world_from_node = AFFINE_IDENTITY, .use = object, .placed = placed, .template = b->level->template});
     open_set(b);
     return LANG_USE_READ;
 }
@@ -134,7 +142,7 @@ bool instances_close(struct builder *b) {
     }
     *placed = (struct placed){.state = PLACED_GATHERED, .material = take_material(&set->primitives)};
     placed->geometry = find_geometry(b, set, height, weight);
-    add_instance(b, use->span, placed);
+    add_instance(b, use, placed);
     level_close(b);
     return false;
 }
