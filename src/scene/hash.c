@@ -83,7 +83,8 @@ void primitives_hash(const struct primitives *p, struct hash *hash) {
     hash_integer(hash, p->count);
     for (uint32_t i = 0; i < p->count; i++) {
         hash_integer(hash, material_of(p, i));
-        hash_primitive(hash, p, &p->info[i]);
+        hash_integer(hash, p->info[i].ref);
+        shape_hash(p, p->info[i].ref, hash);
     }
 }
 
