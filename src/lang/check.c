@@ -244,7 +244,8 @@ static void check_unknown(struct checker *ck, struct object_value *object, struc
     mapping->meant[index] = true;
     const struct grammar_key *key = &object->kind->keys[index];
     const struct value *value = again ? NULL : check_field(ck, object->kind, key, name);
-    if (value && key->type == GRAMMAR_LIST && key->of == &grammar_kinds[KIND_OBJECT])
+    const bool knows_names = object->kind != &grammar_kinds[KIND_TEMPLATE]; /* its parameters are not in scope here */
+    if (value && knows_names && key->type == GRAMMAR_LIST && key->of == &grammar_kinds[KIND_OBJECT])
         place_members(ck, (int)(object->kind - grammar_kinds), index, value->node);
 }
 

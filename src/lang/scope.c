@@ -158,7 +158,7 @@ static bool looks_computed(const struct node *n) {
     if (n->text[strspn(n->text, "+-.0123456789 ")] == '%' && n->text[n->count - 1] == '%') return false; /* a percentage */
     for (const char *c = n->text; *c; c++)
         if (iscntrl((unsigned char)*c)) return false;
-    return strpbrk(n->text, "*/()<>?^=&|[%") || strstr(n->text, " + ") || strstr(n->text, " - ");
+    return strpbrk(n->text, "*/()<>?^=&|[%") || strstr(n->text, " +") || strstr(n->text, " -");
 }
 
 static enum quantity_result rehearse(struct checker *ck, const struct expr *expr, const struct expr_scope *scope,

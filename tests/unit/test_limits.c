@@ -31,6 +31,8 @@ static struct row {
     {"loops of lights", "lights: [{for: {i: 100, j: 100}, ambient: {}}]\nscene: []", "steps"},
     {"many objects", "scene: [{for: {i: 51}, sphere: {}}]", "objects"},
     {"as many objects as may be", "scene: [{for: {i: 50}, sphere: {}}]", NULL},
+    {"objects that were taken back do not count", "scene: [{group: [{for: {i: 30}, sphere: {}}, {sphere: {radius: r}}]}]\nparams: {r: 1}", NULL},
+    {"nor do their steps", "scene: [{group: [{for: {i: 600}, when: 0, sphere: {}}, {sphere: {radius: r}}]}]\nparams: {r: 1}", NULL},
     {"laughs by templates",
      "define:\n  a: {objects: [{sphere: {}}]}\n  b: {objects: [{use: a}, {use: a}, {use: a}, {use: a}]}\n  c: {objects: [{use: b}, {use: b}, {use: b}, {use: b}]}\n"
      "  d: {objects: [{use: c}, {use: c}, {use: c}, {use: c}]}\nscene: [{use: d}]", "objects"},

@@ -150,6 +150,9 @@ static void anchors_outlive_their_items(void **state) {
         {"scene:\n- {sphere: {}, transform: &t [{scale: 2}, {rotate: {x: 45 * 2}}]}\n- box: {}\n- {cone: {}, transform: *t}\n",
          "transform:{scale:[2,2,2]}{rotate:{x:90}} sphere{} box{} transform:{scale:[2,2,2]}{rotate:{x:90}} cone{}"},
         {"scene:\n- {when: &w 1 > 2, sphere: {}}\n- box: {}\n- {when: *w, cone: {}}\n- {when: \"1 < 2\", disc: {}}\n", "box{} disc{}"},
+        {"define: {u: {params: {m: 0}, objects: [{sphere: {}}]}}\nscene:\n- {use: u, with: {m: &m {shininess: 1 + 2}}}\n- {box: {}, material: *m}\n"
+         "- {cone: {from: [1, 2, 3 * 4], to: [5 + 6 + 7, 8 * 9, 10]}}\n- {disc: {}, material: *m}\n",
+         "use( sphere{} ) material:{shininess:3} box{} cone{from:[1,2,12],to:[18,72,10]} material:{shininess:3} disc{}"},
         {"scene:\n- &a {sphere: {radius: r}}\n- box: {}\n- *a\nparams: {r: 3}\n", "sphere{radius:3} box{} sphere{radius:3}"},
     };
     for (size_t i = 0; i < COUNT(texts); i++) {
