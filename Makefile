@@ -15,6 +15,8 @@ JOBS = $(eval JOBS := $(shell getconf _NPROCESSORS_ONLN 2>/dev/null || echo 1))$
 
 # The folders of src/ in their order: each uses those before it, never those after.
 STATIONS := base lang scene shape accel render image cli
+# Where the tests of editors have their packages; the same for all variants of the build.
+export NODE_FOLDER ?= $(abspath $(BUILD))/editor
 LIBRARIES := yaml-0.1 libpng sleef
 
 # ---- Flags ----
@@ -39,11 +41,12 @@ endif
 SOURCES := $(wildcard $(STATIONS:%=src/%/*.c)) $(FACE)
 UNIT := $(wildcard tests/unit/test_*.c)
 ifneq ($(filter lang,$(STATIONS)),)
-GRAMMAR := $(BUILD)/gen/grammar_tables
+GRAMMAR := $(BUILD)/gen/grammar_tables $(BUILD)/gen/grammar_schema
+STORIES := $(BUILD)/gen/stories
 endif
 
 object = $(patsubst %.c,$(BUILD)/obj/%.o,$(1))
-OBJECTS := $(call object,$(filter-out src/cli/%,$(SOURCES))) $(GRAMMAR:$(BUILD)/%=$(BUILD)/obj/%.o)
+OBJECTS := $(call object,$(filter-out src/cli/%,$(SOURCES))) $(patsubst $(BUILD)/%,$(BUILD)/obj/%.o,$(GRAMMAR) $(STORIES))
 CLI_OBJECTS := $(call object,$(filter src/cli/%,$(SOURCES)))
 TOOL_OBJECTS := $(call object,$(wildcard src/base/*.c src/lang/yaml.c src/lang/spelling.c))
 
@@ -65,7 +68,7 @@ SUBMAKE = $(MAKE) --no-print-directory $(if $(findstring -j,$(MAKEFLAGS)),,-j$(J
 # ---- What people ask for ----
 
 .DEFAULT_GOAL := all
-.PHONY: all demo test check tsan same fuzz coverage bench reference format lint deps install uninstall clean help
+.PHONY: editor-deps all demo test check tsan same fuzz coverage bench reference format lint deps install uninstall clean help
 
 all: ## build the program, build/monge
 	@tools/deps --check
@@ -78,17 +81,17 @@ demo: deps ## render every scene of scenes/report/ to out/
 	$(BUILD)/monge render -o out/ --samples 16 scenes/report/final.yaml
 	@echo "The pictures are in $(CURDIR)/out"
 
-test: deps ## run all tests; T=name runs tests/unit/test_name.c or tests/name.sh alone
+test: deps editor-deps ## run all tests; T=name runs tests/unit/test_name.c or tests/name.sh alone
 	+@$(SUBMAKE) run-tests EXTRA_TESTS=$(if $(T),,tools/includes)
 
 SANITIZE := -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
-check: deps ## the tests under the address and undefined-behaviour sanitizers, in a hostile build; with clang too
+check: deps editor-deps ## the tests under the address and undefined-behaviour sanitizers, in a hostile build; with clang too
 	+@$(SUBMAKE) run-tests BUILD=$(BUILD)/check VARIANT="-O1 $(SANITIZE) -DMONGE_HOSTILE"
 	@if tools/deps --sanitizes clang; then echo "With clang:"; else echo "No clang here: gcc alone."; fi
 	+@if tools/deps --sanitizes clang; then $(SUBMAKE) run-tests CC=clang BUILD=$(BUILD)/check-clang \
 	    VARIANT="-O1 $(SANITIZE) -DMONGE_HOSTILE"; fi
 
-tsan: deps ## the tests under the thread sanitizer
+tsan: deps editor-deps ## the tests under the thread sanitizer
 	+@$(SUBMAKE) run-tests BUILD=$(BUILD)/tsan VARIANT="-O1 -fsanitize=thread"
 
 same: all ## that the golden pictures are the same from other compilers and optimization levels
@@ -102,20 +105,23 @@ same: all ## that the golden pictures are the same from other compilers and opti
 fuzz: deps ## a minute of hostile bytes for the loader (libFuzzer where clang has it)
 	tests/fuzz/run.sh 60 $(BUILD)/fuzz
 
-coverage: deps ## the tests with gcc's line coverage, per file of src/; fails below 90 %
+coverage: deps editor-deps ## the tests with gcc's line coverage, per file of src/; fails below 90 %
 	@find $(BUILD)/coverage -name '*.gcda' -delete 2>/dev/null || true
 	+@$(SUBMAKE) run-tests CC=gcc CFLAGS="-O0 -g" BUILD=$(BUILD)/coverage VARIANT="--coverage -fprofile-update=atomic"
 	@tools/coverage $(BUILD)/coverage 90
 
-bench: all ## time scenes/report/final.yaml at 1024x1024
-	@tools/bench $(BUILD)/monge
+bench: all ## measure reading beside libyaml, and rendering
+	+@$(SUBMAKE) $(BUILD)/tools/measure $(BUILD)/tools/yaml_events
+	@tools/bench $(BUILD)
 
-reference: ## make grammar/reference.md anew from grammar/*.yaml
-	+@$(SUBMAKE) $(BUILD)/tools/grammar
+reference: ## make reference.md, errors.md and scene.schema.json in grammar/ anew from grammar/*.yaml
+	+@$(SUBMAKE) $(BUILD)/tools/grammar $(BUILD)/tools/diagnostics
 	$(BUILD)/tools/grammar reference grammar grammar/reference.md
+	$(BUILD)/tools/grammar schema grammar grammar/scene.schema.json
+	$(BUILD)/tools/diagnostics reference grammar/diagnostics.yaml grammar/errors.md
 
 format: ## lay out the code by .clang-format, where clang-format is installed
-	@if command -v clang-format >/dev/null; then clang-format -i $(wildcard src/*.[ch] src/*/*.[ch] tests/unit/*.[ch] tools/*.c); \
+	@if command -v clang-format >/dev/null; then clang-format -i $(wildcard src/*.[ch] src/*/*.[ch] tests/unit/*.[ch] tools/grammar/*.[ch]); \
 	 else echo "format: clang-format is not installed"; fi
 
 lint: ## compile everything with warnings as errors, with clang too
@@ -124,6 +130,10 @@ lint: ## compile everything with warnings as errors, with clang too
 
 deps: ## install what the build needs and is not there
 	@tools/deps
+
+# Node and its packages, for the tests of editors alone; without T=, or for the one that needs them.
+editor-deps:
+	@case '$(T)' in '' | schema) tools/deps --editor $(NODE_FOLDER) ;; esac
 
 help: ## this list
 	@echo "Monge $(VERSION). Targets:"
@@ -140,13 +150,13 @@ BIN = $(DESTDIR)$(PREFIX)/bin
 LIB = $(DESTDIR)$(PREFIX)/lib
 INCLUDE = $(DESTDIR)$(PREFIX)/include
 SHARE = $(DESTDIR)$(PREFIX)/share
-DOCS = README.md LICENSE grammar/reference.md
+DOCS = README.md LICENSE grammar/reference.md grammar/errors.md
 BASH_COMPLETION = $(SHARE)/bash-completion/completions/monge
 ZSH_COMPLETION = $(SHARE)/zsh/site-functions/_monge
 FISH_COMPLETION = $(SHARE)/fish/vendor_completions.d/monge.fish
 
-install: all ## to PREFIX (under DESTDIR): program, library, manual page, completions, documents
-	mkdir -p $(BIN) $(LIB)/pkgconfig $(INCLUDE) $(SHARE)/man/man1 $(SHARE)/doc/monge \
+install: all ## to PREFIX (under DESTDIR): program, library, manual page, completions, schema, documents
+	mkdir -p $(BIN) $(LIB)/pkgconfig $(INCLUDE) $(SHARE)/man/man1 $(SHARE)/doc/monge $(SHARE)/monge \
 	    $(dir $(BASH_COMPLETION) $(ZSH_COMPLETION) $(FISH_COMPLETION))
 	install -m 755 $(BUILD)/monge $(BIN)/monge
 	install -m 644 $(BUILD)/libmonge.a $(LIB)/libmonge.a
@@ -159,11 +169,12 @@ install: all ## to PREFIX (under DESTDIR): program, library, manual page, comple
 	$(BUILD)/monge help --completion zsh > $(ZSH_COMPLETION)
 	$(BUILD)/monge help --completion fish > $(FISH_COMPLETION)
 	install -m 644 $(DOCS) $(SHARE)/doc/monge
+	install -m 644 grammar/scene.schema.json $(SHARE)/monge/scene.schema.json
 
 uninstall: ## remove what install put there
 	rm -f $(BIN)/monge $(LIB)/libmonge.a $(LIB)/pkgconfig/monge.pc $(INCLUDE)/monge.h $(SHARE)/man/man1/monge.1 \
 	    $(BASH_COMPLETION) $(ZSH_COMPLETION) $(FISH_COMPLETION)
-	rm -rf $(SHARE)/doc/monge
+	rm -rf $(SHARE)/doc/monge $(SHARE)/monge
 
 # ---- How it is made ----
 
@@ -191,10 +202,25 @@ $(BUILD)/tests/%: $(BUILD)/obj/tests/unit/%.o $(BUILD)/libmonge.a
 	$(call say,link,$@)
 	$(QUIET)$(LINK) -o $@ $^ -lcmocka $(LIBS)
 
-$(BUILD)/tools/grammar: $(BUILD)/obj/tools/grammar.o $(TOOL_OBJECTS)
+$(BUILD)/tools/grammar: $(call object,$(wildcard tools/grammar/*.c)) $(TOOL_OBJECTS)
 	@mkdir -p $(@D)
 	$(call say,link,$@)
 	$(QUIET)$(LINK) -o $@ $^ $(LIBS)
+
+$(BUILD)/tools/measure $(BUILD)/tools/yaml_events: $(BUILD)/tools/%: $(BUILD)/obj/tools/%.o
+	@mkdir -p $(@D)
+	$(call say,link,$@)
+	$(QUIET)$(LINK) -o $@ $^ $(LIBS)
+
+$(BUILD)/tools/diagnostics: $(call object,tools/diagnostics.c src/lang/file.c) $(TOOL_OBJECTS)
+	@mkdir -p $(@D)
+	$(call say,link,$@)
+	$(QUIET)$(LINK) -o $@ $^ $(LIBS)
+
+$(BUILD)/gen/stories.c: $(BUILD)/tools/diagnostics grammar/diagnostics.yaml
+	@mkdir -p $(@D)
+	$(call say,gen,$@)
+	$(QUIET)$< tables grammar/diagnostics.yaml $@
 
 $(BUILD)/gen/grammar_tables.h: $(BUILD)/tools/grammar $(wildcard grammar/*.yaml) scenes/presets.yaml
 	@mkdir -p $(@D)
@@ -206,8 +232,13 @@ $(BUILD)/gen/grammar_tables.c: $(BUILD)/tools/grammar $(wildcard grammar/*.yaml)
 	$(call say,gen,$@)
 	$(QUIET)$< tables grammar $@
 
+$(BUILD)/gen/grammar_schema.c: $(BUILD)/tools/grammar $(wildcard grammar/*.yaml)
+	@mkdir -p $(@D)
+	$(call say,gen,$@)
+	$(QUIET)$< schema-source grammar $@
+
 # The header comes before any object may need it; after that the .d files know which do.
-$(filter-out $(TOOL_OBJECTS),$(OBJECTS) $(CLI_OBJECTS)) $(call object,$(UNIT)): | $(GRAMMAR:%=%.h)
+$(filter-out $(TOOL_OBJECTS),$(OBJECTS) $(CLI_OBJECTS)) $(call object,$(UNIT)): | $(firstword $(GRAMMAR:%=%.h))
 
 $(BUILD)/obj/%.o: %.c $(BUILD)/flags
 	@mkdir -p $(@D)

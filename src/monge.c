@@ -1,14 +1,21 @@
 /* The library's face: ties the stations together. */
 #include "monge.h"
 
+#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
 
 #include "accel/accel.h"
+#include "base/diag_write.h"
+#include "base/json.h"
 #include "image/png.h"
+#include "image/replace.h"
 #include "lang/file.h"
+#include "lang/import.h"
+#include "lang/format.h"
 #include "lang/lang.h"
+#include "lang/stories.h"
 #include "render/render.h"
 #include "scene/scene.h"
 
@@ -39,11 +46,30 @@ unsigned monge_diagnostics_warnings(const struct monge_diagnostics *diag) { retu
 unsigned monge_diagnostics_failures(const struct monge_diagnostics *diag) { return diag->list.failures; }
 void monge_diagnostics_print(const struct monge_diagnostics *diag, FILE *out) { diag_print(&diag->list, out); }
 
+void monge_diagnostics_write(const struct monge_diagnostics *diag, enum monge_format format, FILE *out) {
+    switch (format) {
+    case MONGE_FORMAT_TEXT: diag_print(&diag->list, out); break;
+    case MONGE_FORMAT_JSON: diag_write_json(&diag->list, out); break;
+    case MONGE_FORMAT_SARIF: diag_write_sarif(&diag->list, stories, MONGE_VERSION, out); break;
+    }
+}
+
+const char *monge_code(size_t index) { return index < stories.count ? stories.first[index].code : NULL; }
+const char *monge_code_summary(size_t index) { return index < stories.count ? stories.first[index].summary : NULL; }
+
+bool monge_explain(const char *code, FILE *out) {
+    const struct diag_story *story = diag_find_story(stories, code);
+    if (story) diag_explain(story, out);
+    return story != NULL;
+}
+
+void monge_write_json_string(const char *text, FILE *out) { json_string(text, out); }
+
 /* ---- Loading ---- */
 
 static const struct monge_limits default_limits = {
     .file_bytes = (size_t)1 << 30, .memory_bytes = (size_t)8 << 30, .values = 100 * 1000 * 1000, .nesting = 100,
-    .recursion = 100, .steps = 100 * 1000 * 1000, .objects = 20 * 1000 * 1000};
+    .recursion = 100, .steps = 10 * 1000 * 1000, .objects = 20 * 1000 * 1000};
 
 enum { MAX_NESTING = 1000, MAX_RECURSION = 1000 }; /* what the stack of a thread has room for */
 
@@ -51,6 +77,7 @@ static size_t chosen(size_t wanted, size_t otherwise) { return wanted ? wanted :
 static size_t least(size_t a, size_t b) { return a < b ? a : b; }
 
 static struct monge_limits effective_limits(const struct monge_limits *given) {
+    if (!given) return default_limits;
     return (struct monge_limits){
         .file_bytes = chosen(given->file_bytes, default_limits.file_bytes),
         .memory_bytes = chosen(given->memory_bytes, default_limits.memory_bytes),
@@ -60,6 +87,15 @@ static struct monge_limits effective_limits(const struct monge_limits *given) {
         .steps = chosen(given->steps, default_limits.steps),
         .objects = chosen(given->objects, default_limits.objects),
     };
+}
+
+static struct lang_limits lang_limits(const struct monge_limits *limits) {
+    return (struct lang_limits){.file_bytes = limits->file_bytes,
+                                .nesting = (unsigned)limits->nesting,
+                                .values = limits->values,
+                                .recursion = (unsigned)limits->recursion,
+                                .steps = limits->steps,
+                                .objects = limits->objects};
 }
 
 /* One load. The description and the text it points into die with it; the scene stays. */
@@ -87,7 +123,6 @@ static const struct lang_define *lang_defines(struct load *load) {
 
 static bool load_scene(struct load *load) {
     struct monge_scene *scene = load->scene;
-    const struct monge_limits *limits = &load->options.limits;
     const unsigned errors = load->diag->errors;
     const struct source *source = read_source(load);
     if (!source) return false;
@@ -96,7 +131,7 @@ static bool load_scene(struct load *load) {
     const struct lang_input input = {
         .source = source,
         .path = load->name,
-        .limits = {limits->file_bytes, (unsigned)limits->nesting, limits->values, (unsigned)limits->recursion, limits->steps, limits->objects},
+        .limits = lang_limits(&load->options.limits),
         .defines = lang_defines(load),
         .define_count = load->options.define_count,
         .frame = load->options.frame,
@@ -126,6 +161,7 @@ static struct monge_load_options load_options(const struct monge_load_options *g
 }
 
 static struct monge_scene *run_load(struct load *load) {
+    diag_begin(load->diag);
     load->scene = calloc(1, sizeof *load->scene);
     if (!load->scene) {
         diag_failure(load->diag, "out-of-memory", "%s: out of memory", load->name);
@@ -177,6 +213,100 @@ bool monge_scene_prepare(struct monge_scene *scene) {
     else arena_release(&scene->arena, before);
     scene->arena.on_full = NULL;
     return scene->accel != NULL;
+}
+
+/* ---- Importing ---- */
+
+static bool write_text(const char *text, const char *path, struct diagnostics *diag) {
+    struct replacement file;
+    if (replace_begin(&file, path)) {
+        fputs(text, file.stream);
+        if (replace_commit(&file)) return true;
+    }
+    diag_failure(diag, "cannot-write", "cannot write %s: %s", strcmp(path, "-") == 0 ? "standard output" : path, strerror(errno));
+    return false;
+}
+
+static bool import_text(struct arena *arena, const char *path, const char *out_path, const struct monge_limits *limits,
+                        struct diagnostics *diag) {
+    const struct lang_limits within = lang_limits(limits);
+    const struct source *source = file_read(arena, diag, path, limits->file_bytes);
+    const char *text = source ? lang_import(arena, diag, source, &within) : NULL;
+    return text && write_text(text, out_path, diag);
+}
+
+bool monge_import(const char *path, const char *out_path, const struct monge_limits *given, struct monge_diagnostics *diag) {
+    const struct monge_limits limits = effective_limits(given);
+    jmp_buf full;
+    struct arena arena = {.limit = limits.memory_bytes, .on_full = &full};
+    volatile bool done = false;
+    if (setjmp(full) == 0) {
+        done = import_text(&arena, path, out_path, &limits, &diag->list);
+    } else {
+        diag_failure(&diag->list, "limit-memory", "%s: takes more memory than there is, or than %zu bytes (the limit `memory_bytes`)",
+                     path, limits.memory_bytes);
+    }
+    arena_free(&arena);
+    return done;
+}
+
+/* ---- Formatting ---- */
+
+void monge_text_free(struct monge_text *text) {
+    free(text->bytes);
+    *text = (struct monge_text){NULL, 0};
+}
+
+/* Reads `path`, or formats `given` where there is no path; the result is in the arena, NULL reported. */
+static const char *read_or_format(struct arena *arena, struct diagnostics *diag, const struct monge_limits *limits, const char *path,
+                                  const char *name, const struct monge_text *given, size_t *size) {
+    if (!path) {
+        const struct lang_limits within = lang_limits(limits);
+        return format_text(arena, diag, file_from_memory(arena, name, given->bytes, given->size), &within, size);
+    }
+    const struct source *source = file_read_bytes(arena, diag, path, limits->file_bytes);
+    *size = source ? source->size : 0;
+    return source ? source->text : NULL;
+}
+
+/* The same as a text of its own. */
+static bool make_text(struct diagnostics *diag, const struct monge_limits *given_limits, const char *path, const char *name,
+                      const struct monge_text *given, struct monge_text *made) {
+    const struct monge_limits limits = effective_limits(given_limits);
+    struct arena arena = {.limit = limits.memory_bytes};
+    jmp_buf full;
+    size_t size = 0;
+    *made = (struct monge_text){NULL, 0};
+    arena.on_full = &full;
+    if (setjmp(full) == 0) {
+        const char *text = read_or_format(&arena, diag, &limits, path, name, given, &size);
+        if (text) *made = (struct monge_text){malloc(size + 1), size};
+        if (made->bytes) ((char *)memcpy(made->bytes, text, size))[size] = '\0';
+        if (text && !made->bytes) diag_failure(diag, "out-of-memory", "%s: out of memory", name);
+    } else {
+        diag_failure(diag, "limit-memory", "%s: takes more memory than there is, or than %zu bytes (the limit `memory_bytes`)", name, limits.memory_bytes);
+    }
+    arena_free(&arena);
+    return made->bytes != NULL;
+}
+
+bool monge_text_read(const char *path, const struct monge_limits *limits, struct monge_text *text, struct monge_diagnostics *diag) {
+    return make_text(&diag->list, limits, path, path, NULL, text);
+}
+
+bool monge_format(const char *name, const struct monge_text *text, const struct monge_limits *limits, struct monge_text *formatted,
+                  struct monge_diagnostics *diag) {
+    return make_text(&diag->list, limits, NULL, name, text, formatted);
+}
+
+bool monge_text_write(const char *path, const struct monge_text *text, struct monge_diagnostics *diag) {
+    struct replacement file;
+    if (replace_begin(&file, path)) {
+        fwrite(text->bytes, 1, text->size, file.stream);
+        if (replace_commit(&file)) return true;
+    }
+    diag_failure(&diag->list, "cannot-write", "cannot write %s: %s", path, strerror(errno));
+    return false;
 }
 
 /* ---- Settings ---- */

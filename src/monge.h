@@ -26,6 +26,24 @@
 
 const char *monge_version(void); /* "1.2.3", static */
 
+/* ---- The scene language ---- */
+
+/* The JSON Schema (draft-07) of scene files, by which editors complete and check them; static. */
+const char *monge_schema(void);
+
+/* A short scene to begin with, as YAML; static. */
+const char *monge_example(void);
+
+/* Prints the manual of a word of the language: a kind of mapping ("material"), a key of any of them
+ * ("radius"), or "language" for all kinds. False, printing nothing, when there is no such word. */
+bool monge_help(const char *word, FILE *out);
+
+/* The word for monge_help that was probably meant; static. NULL: none is near. */
+const char *monge_help_nearest(const char *word);
+
+/* The kinds of mappings by their number, from 0; static. NULL after the last. */
+const char *monge_kind(size_t index);
+
 /* ---- Diagnostics: what is wrong with a scene or a file, with its place ---- */
 
 struct monge_diagnostics;
@@ -39,6 +57,22 @@ unsigned monge_diagnostics_failures(const struct monge_diagnostics *diag); /* of
 /* All so far as text for people, `file:line:col: error[code]: ...` and the line with a caret; by place. */
 void monge_diagnostics_print(const struct monge_diagnostics *diag, FILE *out);
 
+/* All so far as a document, for people (as monge_diagnostics_print has it) or for programs: a JSON array of
+ * objects, or SARIF 2.1.0. README.md has their members. */
+enum monge_format { MONGE_FORMAT_TEXT, MONGE_FORMAT_JSON, MONGE_FORMAT_SARIF };
+void monge_diagnostics_write(const struct monge_diagnostics *diag, enum monge_format format, FILE *out);
+
+/* The codes of diagnostics, sorted, from 0: NULL past the last. Static, as is what one means in a sentence. */
+const char *monge_code(size_t index);
+const char *monge_code_summary(size_t index);
+
+/* Prints what a code means, why it matters and how to mend it, with an example. False, with nothing printed, where
+ * there is no such code. */
+bool monge_explain(const char *code, FILE *out);
+
+/* A text as a JSON string, in quotes; what is no UTF-8 in it becomes U+FFFD. */
+void monge_write_json_string(const char *text, FILE *out);
+
 /* ---- Scenes ---- */
 
 /* What one load may use. Past a limit the load ends with an error that names it. 0: the default. */
@@ -48,7 +82,7 @@ struct monge_limits {
     size_t values;       /* values read from one file, aliases expanded: 100,000,000 */
     size_t nesting;      /* lists and mappings within each other: 100 */
     size_t recursion;    /* templates in use within each other: 100; at most 1000 */
-    size_t steps;        /* objects looked at and turns of loops: 100,000,000 */
+    size_t steps;        /* objects of templates and loops, placed or not: 10,000,000 */
     size_t objects;      /* shapes: 20,000,000, those of a template placed many times once */
 };
 
@@ -89,6 +123,36 @@ size_t monge_scene_primitives(const struct monge_scene *scene);
 /* Builds the acceleration structure, which monge_render does itself where it has not been done.
  * False when there is no memory for it. */
 bool monge_scene_prepare(struct monge_scene *scene);
+
+/* ---- Scenes of others ---- */
+
+/* Writes the scene in `path`, in the YAML format of "The Ray Tracer Challenge", to `out_path` in our
+ * language; "-" is standard input and output. A regular file appears complete under its name or not
+ * at all, and nothing is written when the scene is wrong. What the language cannot say is in diag as
+ * warnings. limits may be NULL. False: diag says why, monge_diagnostics_failures which of the two. */
+bool monge_import(const char *path, const char *out_path, const struct monge_limits *limits, struct monge_diagnostics *diag);
+
+/* ---- Formatting: the text of a scene in the canonical style ---- */
+
+/* Bytes that the caller frees with monge_text_free, and only where a function says that it made them. */
+struct monge_text {
+    char *bytes; /* with a final zero after `size` bytes */
+    size_t size;
+};
+void monge_text_free(struct monge_text *text);
+
+/* Reads all bytes of a file; "-" is standard input. False, a failure in diag, when it cannot be read. */
+bool monge_text_read(const char *path, const struct monge_limits *limits, struct monge_text *text, struct monge_diagnostics *diag);
+
+/* Writes a file, which appears complete under its name or stays as it was, with its permissions; symbolic
+ * links are followed; "-" is standard output. False, a failure in diag, when it cannot be written. */
+bool monge_text_write(const char *path, const struct monge_text *text, struct monge_diagnostics *diag);
+
+/* Lays a scene out in the canonical style: the same values, the same comments in the same order. The
+ * scene must be YAML, but may be wrong otherwise. To format the result changes nothing. False, with the
+ * reason in diag, when it is not YAML. *formatted is made by the function, for the caller to free. */
+bool monge_format(const char *name, const struct monge_text *text, const struct monge_limits *limits, struct monge_text *formatted,
+                  struct monge_diagnostics *diag);
 
 /* ---- Settings: what an author writes in the file and a user may override ---- */
 

@@ -109,7 +109,7 @@ exits 0 --help; out_has 'usage: monge COMMAND'; out_has 'render SCENE...'; no_er
 exits 0 -h; out_has 'usage: monge COMMAND'
 exits 0 help; out_has 'usage: monge COMMAND'
 exits 2; err_has 'usage: monge COMMAND'; no_out
-for command in render check help; do
+for command in render check fmt explain import schema help; do
     exits 0 help $command; out_has "usage: monge $command"
     cp out expected
     exits 0 $command --help; ok "$command --help is help $command" cmp out expected
@@ -119,10 +119,31 @@ exits 0 help render; out_has '--samples N'; out_has '(1 to 65536)'
 ok "help fits 80 columns" [ -z "$(grep -E '.{81}' out)" ]
 exits 0 render no-such-file.yaml --samples 3 --help; out_has 'usage: monge render'
 exits 2 help rendre; err_has 'did you mean `render`?'
-exits 2 help render check; err_has 'help: expected one command'
+exits 2 help render check; err_has 'help: expected one word'
 
-exits 0 help --man; out_has '.TH MONGE 1'; out_has '.SH EXIT STATUS'
-for option in output size samples region shading shadow no\\-shadows depth bits encoding threads stats progress quiet; do
+exits 0 help material; out_has 'material: a material'; out_has 'shininess: number, from 0 to 1000000; default: 32'
+out_has 'The key `material` of object:'; no_err
+exits 0 help radius; out_has 'The key `radius` of sphere, disc, cylinder:'; out_has 'The radius of the base.'
+exits 0 help eye; out_has 'default: in front of the scene'; ok "one kind has it" [ "$(grep -c 'The key' out)" -eq 1 ]
+exits 0 help ellipsoid; out_has 'not there yet'
+exits 0 help render; out_has '`render` is also a word of scenes'; out_has 'shading: `phong`, `diffuse`, `signature`; default: phong'
+exits 0 help look_at; exits 0 help rotate; out_has 'Its keys; exactly one of those with a * must be given:'; out_has 'x *: number, degrees'
+exits 2 help raduis; err_has 'no command and no word of scenes `raduis`; did you mean `radius`?'; no_out
+exits 2 help kone; err_has 'did you mean `cone`?'
+exits 2 help xyzzy; err_has 'no word of scenes `xyzzy`'; ok "nothing is near" sh -c '! grep -q mean err'
+exits 0 help language; out_has '  sphere '
+ok "the language fits 80 columns" [ -z "$(grep -E '.{81}' out)" ]
+for kind in $(sed -n '/^The mappings/,$s/^  \([a-z_0-9]*\) .*/\1/p' out); do
+    exits 0 help $kind; out_has "$kind"
+done
+ok "there were kinds" [ "$last" = 'help shear' ]
+run help language; sed -n '/^A scene:/,/^A scene file/s/^    //p' out >example.yaml
+exits 0 check example.yaml; no_err
+exits 0 schema; out_has '"$schema": "http://json-schema.org/draft-07/schema#"'; no_err
+exits 2 schema x; err_has 'schema: expected nothing more, found `x`'; no_out
+
+exits 0 help --man; out_has '.TH MONGE 1'; out_has '.SH EXIT STATUS'; out_has '.SH SCENES'; out_has 'material: jade'
+for option in output size samples region shading shadow no\\-shadows depth bits encoding threads stats progress format check quiet; do
     out_has "\\-\\-$option"
 done
 have man && ok "the manual page has no roff warnings" [ -z "$(LC_ALL=C.UTF-8 man --warnings -l out 2>&1 >/dev/null)" ]
@@ -130,9 +151,12 @@ exits 0 help --completion bash; cp out completion.bash
 ok "the bash completion parses" bash -n completion.bash
 complete_bash() { bash --norc -c 'source ./completion.bash; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _monge; printf "%s\n" "${COMPREPLY[@]}"' bash "$@" | sort | tr '\n' ' '; }
 ok "bash completes a command" [ "$(complete_bash monge re)" = 'render ' ]
+ok "bash completes a word of scenes" [ "$(complete_bash monge help mat)" = 'material ' ]
+ok "bash completes nothing after schema" [ "$(complete_bash monge schema '')" = ' ' ]
 ok "bash completes an option" [ "$(complete_bash monge render --sh)" = '--shading --shadow ' ]
 ok "bash completes a choice" [ "$(complete_bash monge render --shading '')" = 'diffuse phong signature ' ]
 ok "bash completes a choice after =" [ "$(complete_bash monge render --shading = d)" = 'diffuse ' ]
+ok "bash completes a code" [ "$(complete_bash monge explain no-li)" = 'no-light ' ]
 ok "bash completes a scene" [ "$(complete_bash monge check w)" = 'with space.yaml wrong.yaml ' ]
 exits 0 help --completion=zsh; out_has '#compdef monge'
 have zsh && ok "the zsh completion parses" zsh -n out
@@ -148,6 +172,7 @@ exits 2 xyzzy; err_has 'no command `xyzzy`'; ok "nothing is near xyzzy" sh -c '!
 exits 2 $'\033[31m'; ok "no control characters" sh -c '! grep -q "$(printf "\033")" err'
 exits 2 render; err_has 'render: no scene given'; err_has 'see `monge help render`'
 exits 2 check; err_has 'check: no scene given'
+exits 2 fmt; err_has 'fmt: no scene given'
 exits 2 render one.yaml --sample 2; err_has 'no option `--sample`; did you mean `--samples`?'
 exits 2 render one.yaml --thr 2; err_has 'did you mean `--threads`?'
 exits 2 render one.yaml --szie=4x4; err_has 'no option `--szie`; did you mean `--size`?'
@@ -321,6 +346,46 @@ ok "the verdicts in order" [ "$(cat out)" = "$(printf 'one.yaml: ok\nwrong.yaml:
 err_has 'wrong.yaml:2:'
 exits 1 check --quiet one.yaml wrong.yaml; ok "quiet says what is wrong" [ "$(cat out)" = 'wrong.yaml: 1 error' ]
 exits 2 check wrong.yaml absent.yaml; out_has 'absent.yaml: not read'; err_has 'No such file or directory'
+
+exits 1 check --format json one.yaml wrong.yaml; out_has '"code": "unknown-key"'; no_err
+exits 0 check --quiet --format sarif one.yaml; out_has '"version": "2.1.0"'; no_err
+exits 2 check --format xml one.yaml; err_has 'expected text, json or sarif'
+exits 2 check --format json one.yaml --nonsense; no_out
+exits 1 render --format json "${small[@]}" wrong.yaml one.yaml -o formats/; err_has '"code": "unknown-key"'; no_out
+ok "the document is all there is" [ "$(head -c 1 err)$(tail -n 1 err)" = '[]' ]
+is_png formats/one.png
+exits 0 render --format json "${small[@]}" one.yaml -o - ; ok "no mistakes" [ "$(cat err)" = '[]' ]; is_png out
+
+# ---- explain ----
+
+exits 0 explain; out_has 'unknown-key '; no_err
+ok "a line for each code" [ "$(wc -l <out)" -gt 50 ]
+exits 0 explain unknown-key; out_has 'unknown-key (error)'; out_has 'raduis'; no_err
+exits 0 explain unknown-key no-light; out_has 'unknown-key (error)'; out_has 'no-light (warning)'
+exits 2 explain unknown-kye; err_has 'did you mean `unknown-key`?'; no_out
+exits 2 explain zzzzzzzz; err_has '`monge explain` lists them'; no_out
+exits 2 explain --format json; err_has '--format'
+
+# ---- Importing ----
+
+printf -- '- add: sphere\n- add: light\n  at: [-10, 10, -10]\n  intensity: [1, 1, 1]\n' >book.yml
+printf -- '- add: sphre\n' >wrongbook.yml
+exits 0 import book.yml; out_has '- sphere: {}'; err_has 'book.yml:1:1: warning[import-missing]: there is no camera'
+cp out imported.yaml
+exits 0 import book.yml -o book.yaml; ok "-o gives the same" cmp imported.yaml book.yaml; no_out; no_temporaries
+exits 0 check book.yaml
+last='import - <book.yml | render -'
+"$monge" import - <book.yml 2>err | "$monge" render "${small[@]}" -q - >out 2>>err; status=$?
+is_png out
+exits 1 import wrongbook.yml -o none.yaml; err_has 'did you mean `sphere`?'; missing none.yaml
+exits 2 import; err_has 'import: no scene given'
+exits 2 import book.yml one.yaml; err_has 'import: expected one file, found `one.yaml` as well'
+exits 2 import absent.yml; err_has 'No such file or directory'
+exits 2 import book.yml -o ./book.yml; err_has 'book.yml would be written over'
+exits 2 import book.yml -o none/x.yaml; err_has 'cannot write none/x.yaml: No such file or directory'
+exits 2 import book.yml --size 4x4; err_has 'no option `--size`'
+[ -e full ] && exits 2 import book.yml -o full && err_has 'cannot write full: No space left on device'
+exits 0 help import; out_has '-o, --output FILE'
 
 # ---- Statistics ----
 

@@ -54,11 +54,14 @@ void accel_around(const struct accel *accel, ray r, void (*visit)(void *context,
                   void *context);
 
 /* How far the bounded primitives reach along a world-space direction of any length: the largest dot
- * product with it. -INFINITY where there are none. Exact to rounding for the scene's own primitives and
- * to 1e-6 of the scene's size for placed ones; where those are too many, not too small. */
+ * product with it. -INFINITY where there are none. Exact to rounding without instances, with them to 1e-6
+ * of the scene's size; where too many reach about as far, not too small. */
 double accel_support(const struct accel *accel, vec3 direction);
 
-/* The box around all bounded primitives; empty where there are none. World space. */
+/* The box around all bounded primitives, as tight as accel_support; empty where there are none. World space. */
+box3 accel_extent(const struct accel *accel);
+
+/* A box that holds it, known at once: that of the boxes of what instances place. */
 box3 accel_bounds(const struct accel *accel);
 
 /* Whether two are the same. */

@@ -117,14 +117,46 @@ static void add_bounded(struct builder *b, primitive_ref ref, box3 box) {
     else add_unbounded(b, ref);
 }
 
+/* What two boxes around the same have in common. */
+static box3 common(box3 a, box3 b) {
+    return (box3){{box3_upper(a.min.x, b.min.x), box3_upper(a.min.y, b.min.y), box3_upper(a.min.z, b.min.z)},
+                  {box3_lower(a.max.x, b.max.x), box3_lower(a.max.y, b.max.y), box3_lower(a.max.z, b.max.z)}};
+}
+
+static box3 node_box(const struct bvh_node *node) {
+    const float *b = node->bounds;
+    return (box3){{(double)b[0], (double)b[1], (double)b[2]}, {(double)b[3], (double)b[4], (double)b[5]}};
+}
+
+/* A few boxes of the tree, turned one by one, leave less air around than its whole box. */
+static box3 instance_bounds(const struct instance *instance, const struct bvh *placed) {
+    enum { BOXES = 8 };
+    uint32_t nodes[BOXES] = {0}, count = 1;
+    const box3 whole = shape_placed_bounds(instance, placed->bounds);
+    for (uint32_t before = 0; before < count;) { /* level by level, until nothing splits */
+        before = count;
+        for (uint32_t i = 0; i < before && count < BOXES; i++) {
+            const struct bvh_node *node = &placed->nodes[nodes[i]];
+            if (node->count) continue;
+            nodes[i] = node->first;
+            nodes[count++] = node->first + 1;
+        }
+    }
+    box3 parts = BOX3_EMPTY;
+    for (uint32_t i = 0; i < count; i++)
+        parts = box3_union(parts, shape_placed_bounds(instance, node_box(&placed->nodes[nodes[i]])));
+    return common(whole, parts);
+}
+
 static void collect_instance(struct builder *b, const struct choice *choice, primitive_ref ref) {
     const uint32_t index = primitive_ref_index(ref);
     const struct bvh *placed = accel_tree(choice->accel->placed[index], choice->which);
-    const box3 box = shape_placed_bounds(&choice->accel->primitives->instances[index], placed->bounds);
+    const struct instance *instance = &choice->accel->primitives->instances[index];
     if (bvh_is_empty(placed)) return;
     if (!placed->unbounded_count) {
-        add_bounded(b, ref, box);
+        add_bounded(b, ref, instance_bounds(instance, placed));
     } else {
+        const box3 box = shape_placed_bounds(instance, placed->bounds);
         if (box3_is_bounded(box)) b->bounds = box3_union(b->bounds, box);
         add_unbounded(b, ref);
     }

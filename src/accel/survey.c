@@ -119,8 +119,7 @@ static void reach_run(struct reach *reach, const struct accel *accel, const stru
             const vec3 x = affine_column(*map, 0), y = affine_column(*map, 1), z = affine_column(*map, 2);
             const struct measure inner = {{vec3_dot(x, m->along), vec3_dot(y, m->along), vec3_dot(z, m->along)},
                                           m->offset + vec3_dot(affine_column(*map, 3), m->along)};
-            const box3 bounds = accel_bounds(placed);
-            if (!box3_is_empty(bounds) && worth_it(reach, box_reach(&inner, bounds))) reach_set(reach, placed, &inner);
+            reach_set(reach, placed, &inner);
         } else {
             const double most = m->offset + shape_support(p, refs[i], m->along);
             if (most > reach->most && most < INFINITY) reach->most = most;
@@ -128,14 +127,15 @@ static void reach_run(struct reach *reach, const struct accel *accel, const stru
     }
 }
 
-/* The part that reaches further comes first: then there is little else to look into. */
-static void reach_tree(struct reach *reach, const struct accel *accel, const struct bvh *bvh, const struct measure *m) {
+/* The part that reaches further comes first: then there is little else to look into. Nothing bounded
+ * reaches beyond `limit`; the boxes of nodes do, by their margin. */
+static void reach_tree(struct reach *reach, const struct accel *accel, const struct bvh *bvh, const struct measure *m, double limit) {
     reach_run(reach, accel, m, bvh->unbounded, bvh->unbounded_count);
     if (!bvh->node_count) return;
     struct stack stack = {.depth = 1}; /* the root */
     while (stack.depth > 0) {
         const struct bvh_node *node = &bvh->nodes[stack.node[--stack.depth]];
-        while (worth_it(reach, node_reach(m, node))) {
+        while (worth_it(reach, box3_lower(node_reach(m, node), limit))) {
             if (node->count) {
                 reach_run(reach, accel, m, bvh->refs + node->first, node->count);
                 break;
@@ -148,21 +148,37 @@ static void reach_tree(struct reach *reach, const struct accel *accel, const str
 }
 
 static void reach_set(struct reach *reach, const struct accel *accel, const struct measure *m) {
-    reach_tree(reach, accel, accel->opaque, m);
-    reach_tree(reach, accel, accel->clear, m);
+    const box3 bounds = accel_bounds(accel);
+    if (box3_is_empty(bounds)) return;
+    const double limit = box_reach(m, bounds);
+    if (!worth_it(reach, limit)) return;
+    reach_tree(reach, accel, accel->opaque, m, limit);
+    reach_tree(reach, accel, accel->clear, m, limit);
+}
+
+static double shapes_support(const struct primitives *p, vec3 direction) {
+    double most = -INFINITY;
+    for (uint32_t i = 0; i < p->count; i++) {
+        const double one = shape_support(p, p->info[i].ref, direction);
+        if (one > most && one < INFINITY) most = one;
+    }
+    return most;
 }
 
 double accel_support(const struct accel *accel, vec3 direction) {
-    const struct primitives *p = accel->primitives;
-    struct reach reach = {.most = -INFINITY, .left = REACH_BUDGET};
-    for (uint32_t i = 0; i < p->count; i++) {
-        const double most = shape_support(p, p->info[i].ref, direction);
-        if (most > reach.most && most < INFINITY) reach.most = most;
-    }
-    if (!p->instance_count) return reach.most;
+    if (!accel->primitives->instance_count) return shapes_support(accel->primitives, direction);
     const struct measure to = {direction, 0.0}, fro = {vec3_neg(direction), 0.0};
     const box3 bounds = accel_bounds(accel);
+    struct reach reach = {.most = -INFINITY, .left = REACH_BUDGET};
     if (box3_is_bounded(bounds)) reach.slack = 1e-6 * (box_reach(&to, bounds) + box_reach(&fro, bounds));
     reach_set(&reach, accel, &to);
     return reach.most;
+}
+
+box3 accel_extent(const struct accel *accel) {
+    const box3 bounds = accel_bounds(accel);
+    if (!accel->primitives->instance_count || box3_is_empty(bounds)) return bounds;
+    const vec3 min = {-accel_support(accel, (vec3){-1, 0, 0}), -accel_support(accel, (vec3){0, -1, 0}), -accel_support(accel, (vec3){0, 0, -1})};
+    const vec3 max = {accel_support(accel, (vec3){1, 0, 0}), accel_support(accel, (vec3){0, 1, 0}), accel_support(accel, (vec3){0, 0, 1})};
+    return (box3){min, max};
 }

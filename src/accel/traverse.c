@@ -1,4 +1,5 @@
-/* Walks the hierarchy along a ray, near children first, with a stack of the far ones. */
+/* Walks the hierarchy along a ray, near children first, with a stack of the far ones, and on into the
+ * hierarchies of the instances that it comes to. */
 #include "accel/bvh.h"
 
 /* A ray as the boxes see it: t = (plane - org) * inverse. Origins moved by the rounding of that

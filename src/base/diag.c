@@ -3,29 +3,14 @@
 #include <stdarg.h>
 #include <string.h>
 
+#include "base/utf8.h"
+
 enum {
     EXCERPT_WIDTH = 100, /* characters of a line that are shown */
     EXCERPT_LEAD = 60,   /* of these, at most so many before the caret */
 };
 
 /* ---- Safe text ---- */
-
-/* The code point of the UTF-8 at text[0], and its length in bytes; UINT32_MAX and 1 for what is none. */
-static uint32_t decode(const char *text, size_t left, size_t *bytes) {
-    const unsigned char *t = (const unsigned char *)text;
-    const size_t n = t[0] < 0x80 ? 1 : t[0] < 0xc2 ? 0 : t[0] < 0xe0 ? 2 : t[0] < 0xf0 ? 3 : t[0] < 0xf5 ? 4 : 0;
-    static const uint32_t least[] = {0, 0, 0x80, 0x800, 0x10000};
-    *bytes = 1;
-    if (n == 0 || n > left) return UINT32_MAX;
-    uint32_t code = n == 1 ? t[0] : t[0] & (0x7fu >> n);
-    for (size_t i = 1; i < n; i++) {
-        if ((t[i] & 0xc0) != 0x80) return UINT32_MAX;
-        code = code << 6 | (t[i] & 0x3f);
-    }
-    if (code < least[n] || code > 0x10ffff || (code >= 0xd800 && code < 0xe000)) return UINT32_MAX;
-    *bytes = n;
-    return code;
-}
 
 /* Whether a terminal shows the character in a column of its own: no control, no line break, nothing
  * that turns the direction of writing. */
@@ -41,7 +26,7 @@ static bool is_plain(uint32_t code) {
 static char *copy_safe(char *to, const char *from, size_t size) {
     for (size_t i = 0; i < size;) {
         size_t bytes;
-        const bool plain = is_plain(decode(from + i, size - i, &bytes));
+        const bool plain = is_plain(utf8_decode(from + i, size - i, &bytes));
         if (!plain) *to++ = from[i] == '\t' ? ' ' : '?';
         else to = (char *)memmove(to, from + i, bytes) + bytes;
         for (i += bytes; i < size && ((unsigned char)from[i] & 0xc0) == 0x80;) i++;
@@ -74,7 +59,8 @@ static void place_excerpt(struct arena *arena, struct span span, struct place *p
 
 static struct place make_place(struct diagnostics *diag, struct span span) {
     if (!span.source) return (struct place){0};
-    struct place place = {.line = span.line + 1, .column = span.column + 1, .length = span.length ? span.length : 1};
+    struct place place = {.line = span.line + 1, .column = span.column + 1, .extent = span.length};
+    place.length = span.length ? span.length : 1;
     char *name = arena_text(&diag->arena, span.source->name, strlen(span.source->name));
     *copy_safe(name, name, strlen(name)) = '\0';
     place.file = name;
@@ -94,7 +80,7 @@ static bool place_before(const struct place *a, const struct place *b) {
 
 static bool already_there(const struct diagnostics *diag, const struct diagnostic *d) {
     for (const struct diagnostic *e = diag->first; e; e = e->next)
-        if (e->severity == d->severity && same_file(&e->place, &d->place) && e->place.line == d->place.line &&
+        if (e->load == d->load && e->severity == d->severity && same_file(&e->place, &d->place) && e->place.line == d->place.line &&
             e->place.column == d->place.column && strcmp(e->message, d->message) == 0)
             return true;
     return false;
@@ -120,7 +106,12 @@ static char *format_text(struct arena *arena, const char *format, va_list args) 
     return text;
 }
 
-bool diag_full(const struct diagnostics *diag) { return diag->kept >= DIAG_MAX_KEPT; }
+void diag_begin(struct diagnostics *diag) {
+    diag->load++;
+    diag->before = diag->kept;
+}
+
+bool diag_full(const struct diagnostics *diag) { return diag->kept - diag->before >= DIAG_MAX_KEPT; }
 
 static void count(struct diagnostics *diag, enum severity severity) {
     switch (severity) {
@@ -157,6 +148,7 @@ static struct diagnostic *add(struct diagnostics *diag, enum severity severity, 
     struct diagnostic *d = arena_alloc(&diag->arena, sizeof *d);
     d->severity = severity;
     d->code = code;
+    d->load = diag->load;
     d->message = format_text(&diag->arena, format, args);
     d->place = make_place(diag, span);
     if (already_there(diag, d)) return d;
@@ -247,10 +239,16 @@ static void print_one(const struct diagnostic *d, FILE *out) {
     }
 }
 
+bool diag_more(const struct diagnostics *diag, char text[DIAG_MORE_SIZE]) {
+    const unsigned all = diag->errors + diag->warnings + diag->failures;
+    if (all > diag->kept) snprintf(text, DIAG_MORE_SIZE, "and %u more", all - diag->kept);
+    return all > diag->kept;
+}
+
 void diag_print(const struct diagnostics *diag, FILE *out) {
     for (const struct diagnostic *d = diag->first; d; d = d->next) print_one(d, out);
-    const unsigned all = diag->errors + diag->warnings + diag->failures;
-    if (all > diag->kept) fprintf(out, "... and %u more\n", all - diag->kept);
+    char more[DIAG_MORE_SIZE];
+    if (diag_more(diag, more)) fprintf(out, "... %s\n", more);
 }
 
 void diag_free(struct diagnostics *diag) {

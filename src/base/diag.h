@@ -23,6 +23,7 @@ enum severity {
 struct place {
     const char *file;      /* NULL: no place */
     uint32_t line, column; /* from 1 */
+    uint32_t extent;       /* characters of the span, 0 where it is a point */
     const char *excerpt;   /* of the line, safe to print; NULL where the line is not in the source */
     uint32_t caret;        /* characters of the excerpt before the caret */
     uint32_t length;       /* characters to underline, at least 1 */
@@ -43,10 +44,11 @@ struct diagnostic {
     const char *help;    /* the smallest fix, drawn behind the caret; NULL: none */
     const char *note;    /* background in a line of its own; NULL: none */
     struct related *related;
+    unsigned load; /* which of the loads told it */
     struct diagnostic *next;
 };
 
-enum { DIAG_MAX_KEPT = 50 }; /* further ones are counted, not kept */
+enum { DIAG_MAX_KEPT = 50 }; /* of one load; further ones are counted, not kept */
 
 /* What is under way while a diagnostic is made, the innermost first: a template in use, a turn of a
  * loop. Each is told as a related place. */
@@ -62,12 +64,16 @@ struct diagnostics {
     const struct diag_frame *frame; /* NULL: nothing is under way */
     struct diagnostic *first;
     unsigned kept;
+    unsigned load, before; /* how many loads have begun; how many were kept when the last one did */
     struct diagnostic beyond; /* stands for the ones that are not kept */
     unsigned errors, warnings, failures; /* all of them, the ones not kept too */
 };
 
+/* A load begins: as many may be kept of it as of the one before, and what that one told may be told again. */
+void diag_begin(struct diagnostics *diag);
+
 /* `code` is static. Each returns the diagnostic, to add help, a note or related places to; never NULL. The same
- * message at the same place is kept and counted once, as long as there is room to keep it. What
+ * message of a load at the same place is kept and counted once, as long as there is room to keep it. What
  * they are told of a file may be in any bytes: it comes out as UTF-8 that a terminal can take. */
 struct diagnostic *diag_error(struct diagnostics *diag, struct span span, const char *code, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
@@ -84,6 +90,10 @@ void diag_related(struct diagnostics *diag, struct diagnostic *d, struct span sp
 
 /* Whether as many are kept as may be: further errors and warnings are counted, their texts unread. */
 bool diag_full(const struct diagnostics *diag);
+
+/* How many there are that are not kept, as "and 12 more". False where there are none. */
+enum { DIAG_MORE_SIZE = 32 };
+bool diag_more(const struct diagnostics *diag, char text[DIAG_MORE_SIZE]);
 
 void diag_print(const struct diagnostics *diag, FILE *out);
 void diag_free(struct diagnostics *diag);

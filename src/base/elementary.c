@@ -17,7 +17,8 @@ static double sin_of_quarters(double angle_deg, int quarters_on) {
     const double quarter = floor(turn / 90.0 + 0.5);
     const double rest = turn - 90.0 * quarter;
     const int which = ((int)quarter + quarters_on) & 3;
-    const double half = which & 1 ? Sleef_cinz_cospid1_u05purec(rest / 180.0) : Sleef_cinz_sinpid1_u05purec(rest / 180.0);
+    const double half =
+        which & 1 ? Sleef_cinz_cospid1_u05purec(rest / 180.0) : Sleef_cinz_sinpid1_u05purec(rest / 180.0);
     const double exact = !(which & 1) && fabs(rest) == 30.0 ? copysign(0.5, rest) : half;
     return which & 2 ? -exact : exact;
 }
@@ -26,9 +27,6 @@ double elementary_sin_deg(double angle_deg) { return sin_of_quarters(angle_deg, 
 double elementary_cos_deg(double angle_deg) { return sin_of_quarters(angle_deg, 1); }
 
 double elementary_tan_deg(double angle_deg) {
-    const double half_turn = fmod(angle_deg, 180.0); /* -180 .. 180 */
-    if (fabs(half_turn) == 45.0) return copysign(1.0, half_turn);
-    if (fabs(half_turn) == 135.0) return copysign(1.0, -half_turn);
     return elementary_sin_deg(angle_deg) / elementary_cos_deg(angle_deg);
 }
 

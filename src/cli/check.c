@@ -21,13 +21,16 @@ static void print_verdict(const char *scene, const struct load *load) {
 }
 
 enum status check_command(const struct arguments *args) {
+    struct report report;
     enum status worst = STATUS_YES;
+    if (!report_begin(&report, args)) return STATUS_TROUBLE;
     for (size_t i = 0; i < args->count; i++) {
-        struct load load = load_scene(args->operands[i]);
+        struct load load = load_scene(args->operands[i], &report);
         monge_scene_free(load.scene);
-        if (load.status != STATUS_YES || !args->option[OPTION_QUIET].given)
-            print_verdict(args->operands[i], &load);
+        const bool wanted = load.status != STATUS_YES || !args->option[OPTION_QUIET].given;
+        if (wanted && report.format == MONGE_FORMAT_TEXT) print_verdict(args->operands[i], &load);
         if (load.status > worst) worst = load.status;
     }
+    report_end(&report, stdout);
     return worst;
 }

@@ -3,22 +3,33 @@
 #include <string.h>
 
 #include "cli/check.h"
+#include "cli/explain.h"
+#include "cli/fmt.h"
 #include "cli/help.h"
+#include "cli/import.h"
 #include "cli/options.h"
 #include "cli/render.h"
 #include "cli/say.h"
+#include "cli/schema.h"
 #include "cli/suggest.h"
 #include "monge.h"
 
-#define IN_NONE   (1u << COMMAND_NONE)
-#define IN_RENDER (1u << COMMAND_RENDER)
-#define IN_CHECK  (1u << COMMAND_CHECK)
-#define IN_HELP   (1u << COMMAND_HELP)
+#define IN_NONE    (1u << COMMAND_NONE)
+#define IN_RENDER  (1u << COMMAND_RENDER)
+#define IN_CHECK   (1u << COMMAND_CHECK)
+#define IN_FMT     (1u << COMMAND_FMT)
+#define IN_EXPLAIN (1u << COMMAND_EXPLAIN)
+#define IN_IMPORT  (1u << COMMAND_IMPORT)
+#define IN_SCHEMA  (1u << COMMAND_SCHEMA)
+#define IN_HELP    (1u << COMMAND_HELP)
+#define IN_ALL     ((1u << COMMANDS) - 1)
 
 /* The words of a choice stand in the order of the enum that they become. */
 const struct option_row OPTION_TABLE[OPTIONS] = {
     [OPTION_OUTPUT] = {"output", 'o', VALUE_FILE, IN_RENDER, "FILE|DIR/|PATTERN", 0, 0,
                        "where the picture goes: a file, a folder, a pattern with {name}, or -"},
+    [OPTION_IMPORT_OUTPUT] = {"output", 'o', VALUE_FILE, IN_IMPORT, "FILE", 0, 0,
+                              "where the scene goes; - is standard output, which is the default"},
     [OPTION_SIZE] = {"size", 0, VALUE_SIZE, IN_RENDER, "WxH", 1, MONGE_MAX_SIDE,
                      "size of the picture in pixels"},
     [OPTION_SAMPLES] = {"samples", 0, VALUE_WHOLE, IN_RENDER, "N", 1, MONGE_MAX_SAMPLES, "samples a pixel"},
@@ -40,19 +51,23 @@ const struct option_row OPTION_TABLE[OPTIONS] = {
                       "write times, rays and memory as JSON"},
     [OPTION_PROGRESS] = {"progress", 0, VALUE_CHOICE, IN_RENDER, "auto|always|never", 0, 0,
                          "show a progress bar; auto: where standard error is a terminal"},
-    [OPTION_QUIET] = {"quiet", 'q', VALUE_NONE, IN_RENDER | IN_CHECK, NULL, 0, 0,
+    [OPTION_FORMAT] = {"format", 0, VALUE_CHOICE, IN_RENDER | IN_CHECK, "text|json|sarif", 0, 0,
+                       "how to report what is wrong: for people, or as one document for programs"},
+    [OPTION_CHECK_ONLY] = {"check", 0, VALUE_NONE, IN_FMT, NULL, 0, 0,
+                           "write nothing; list what is not formatted, exit status 1 if any"},
+    [OPTION_QUIET] = {"quiet", 'q', VALUE_NONE, IN_RENDER | IN_CHECK | IN_FMT, NULL, 0, 0,
                       "report nothing but what is wrong"},
     [OPTION_MAN] = {"man", 0, VALUE_NONE, IN_HELP, NULL, 0, 0, "print the manual page, as roff"},
     [OPTION_COMPLETION] = {"completion", 0, VALUE_CHOICE, IN_HELP, "bash|zsh|fish", 0, 0,
                            "print the completion script of a shell"},
-    [OPTION_HELP] = {"help", 'h', VALUE_NONE, IN_NONE | IN_RENDER | IN_CHECK | IN_HELP, NULL, 0, 0,
+    [OPTION_HELP] = {"help", 'h', VALUE_NONE, IN_ALL, NULL, 0, 0,
                      "show this help"},
     [OPTION_VERSION] = {"version", 0, VALUE_NONE, IN_NONE, NULL, 0, 0, "show the version"},
 };
 
 const char *const STATUS_DOC[] = {
     [STATUS_YES] = "all is well",
-    [STATUS_NO] = "a scene is wrong; the others have still been dealt with",
+    [STATUS_NO] = "a scene is wrong, or not formatted (fmt --check); the others have still been dealt with",
     [STATUS_TROUBLE] = "trouble: wrong usage, a file that cannot be read or written, no memory",
 };
 
@@ -78,7 +93,10 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                      "{name} stands for NAME. A picture is complete or absent: it is written under "
                      "a temporary name and then renamed.",
                      "The scene - is standard input; its picture goes to standard output unless -o "
-                     "says otherwise. -o - is standard output."},
+                     "says otherwise. -o - is standard output.",
+                     "With --format json or sarif everything that is wrong comes as one document on "
+                     "standard error at the end, with --quiet implied; wrong usage is still told as "
+                     "text. `monge help check` tells what is in it."},
             .examples = {{"monge render king.yaml", "writes king.png"},
                          {"monge render scenes/*.yaml -o pictures/ --size 320x240", "small pictures of many"},
                          {"monge render king.yaml -o 'draft-{name}.png' --shading diffuse --no-shadows",
@@ -95,20 +113,91 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
             .text = {"Reads each scene and reports everything that is wrong with it on standard "
                      "error, each with its line and column; then `SCENE: ok`, or how many errors "
                      "there are, on standard output.",
+                     "With --format json or sarif, standard output gets one document about all scenes "
+                     "instead. JSON: an array of objects with file, line, column, endLine, "
+                     "endColumn, severity (error, warning, failure), code, message, help, note and "
+                     "related, a list of objects with file, line, column and message; null is what "
+                     "there is not. SARIF 2.1.0: one run; failures, which have no place, are "
+                     "notifications of the tool. Lines and columns count from 1, columns in characters, "
+                     "an end is the first column behind.",
                      "The scene - is standard input."},
             .examples = {{"monge check --quiet scenes/*.yaml",
-                          "a step of a build: silent where all is well"}},
+                          "a step of a build: silent where all is well"},
+                         {"monge check --format sarif scenes/*.yaml > monge.sarif",
+                          "for what shows SARIF beside the code"}},
             .needs_operand = true,
             .run = check_command,
+        },
+    [COMMAND_EXPLAIN] =
+        {
+            .name = "explain",
+            .operands = "[CODE...]",
+            .doc = "explain the code of an error or a warning",
+            .text = {"Every message has a code in brackets, as in error[unknown-key]. Tells what it "
+                     "means, why it matters and how to mend it, with a wrong and a right example. "
+                     "Codes are stable, the words of messages are not.",
+                     "Without a code: all codes, each with what it means in a sentence."},
+            .examples = {{"monge explain unknown-key", "the story behind error[unknown-key]"},
+                         {"monge explain | grep camera", "the codes that have to do with the camera"}},
+            .run = explain_command,
+        },
+    [COMMAND_IMPORT] =
+        {
+            .name = "import",
+            .operands = "FILE",
+            .doc = "turn a scene of The Ray Tracer Challenge into one of ours",
+            .text = {"Reads a scene in the YAML format of Jamis Buck's book The Ray Tracer Challenge, "
+                     "a list of `add` and `define`, and writes it as a scene of this language. What "
+                     "the language cannot say is left out or approximated, each with a warning and "
+                     "its place on standard error.",
+                     "The file is complete or absent, and absent when the scene is wrong. The FILE "
+                     "- is standard input."},
+            .examples = {{"monge import cover.yml -o cover.yaml", "writes cover.yaml"},
+                         {"monge import cover.yml | monge render - -o cover.png", "straight to a picture"}},
+            .needs_operand = true,
+            .run = import_command,
+        },
+    [COMMAND_FMT] =
+        {
+            .name = "fmt",
+            .operands = "SCENE...",
+            .doc = "lay scenes out in the canonical style",
+            .text = {"Rewrites each scene with two spaces a level, one space after `:` and `,`, at most "
+                     "one blank line, and lists and mappings in brackets that do not fit into 100 columns "
+                     "as blocks. Values, comments and the order of keys stay as they are; quotes and "
+                     "numbers are kept as written. A scene need not be right, but must be YAML.",
+                     "A file that is formatted is not touched; another one is replaced as a whole. With "
+                     "--check nothing is written, and the files that are not formatted are listed on "
+                     "standard output. The scene - is standard input, and goes to standard output."},
+            .examples = {{"monge fmt scenes/*.yaml", "in place"},
+                         {"monge fmt --check scenes/*.yaml", "a step of a build: 1 where something is not formatted"},
+                         {"monge fmt - < king.yaml | diff king.yaml -", "what it would change"}},
+            .needs_operand = true,
+            .run = fmt_command,
+        },
+    [COMMAND_SCHEMA] =
+        {
+            .name = "schema",
+            .operands = "",
+            .doc = "print the JSON Schema of scenes, for editors",
+            .text = {"Prints what editors and validators need to complete, explain and check scenes, as "
+                     "JSON Schema, draft-07. It knows the keys, the types and the ranges; `monge check` "
+                     "knows what the names and the values mean as well."},
+            .examples = {{"monge schema > scene.schema.json",
+                          "for `# yaml-language-server: $schema=scene.schema.json` in a scene"}},
+            .run = schema_command,
         },
     [COMMAND_HELP] =
         {
             .name = "help",
-            .operands = "[COMMAND]",
-            .doc = "tell how to use monge or one of its commands",
-            .text = {"Without a command: what there is. The manual page and the completion scripts "
-                     "come from the same table as this text."},
+            .operands = "[COMMAND|WORD]",
+            .doc = "tell how to use monge, or what a word of a scene means",
+            .text = {"Without a word: what there is. The manual page and the completion scripts come "
+                     "from the same table as this text. A word is any that a scene may have as a key, "
+                     "or the kind of one of its mappings; `language` gives them all."},
             .examples = {{"monge help render", "the options of render"},
+                         {"monge help language", "a scene to begin with, and the kinds of mappings"},
+                         {"monge help material", "the keys of a material, with types and defaults"},
                          {"source <(monge help --completion bash)", "completion in this shell"}},
             .run = help_command,
         },

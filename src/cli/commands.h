@@ -10,10 +10,21 @@
 /* As diff(1) has them; of several, the highest counts. */
 enum status { STATUS_YES, STATUS_NO /* a scene is wrong */, STATUS_TROUBLE /* usage, files, system */ };
 
-enum command_id { COMMAND_NONE /* monge itself */, COMMAND_RENDER, COMMAND_CHECK, COMMAND_HELP, COMMANDS };
+enum command_id {
+    COMMAND_NONE, /* monge itself */
+    COMMAND_RENDER,
+    COMMAND_CHECK,
+    COMMAND_FMT,
+    COMMAND_EXPLAIN,
+    COMMAND_IMPORT,
+    COMMAND_SCHEMA,
+    COMMAND_HELP,
+    COMMANDS
+};
 
 enum option_id {
     OPTION_OUTPUT,
+    OPTION_IMPORT_OUTPUT, /* the same words, but of a scene */
     OPTION_SIZE,
     OPTION_SAMPLES,
     OPTION_REGION,
@@ -26,6 +37,8 @@ enum option_id {
     OPTION_THREADS,
     OPTION_STATS,
     OPTION_PROGRESS,
+    OPTION_FORMAT,
+    OPTION_CHECK_ONLY,
     OPTION_QUIET,
     OPTION_MAN,
     OPTION_COMPLETION,
@@ -63,7 +76,7 @@ struct example {
 
 struct command_row {
     const char *name;
-    const char *operands;       /* "SCENE..." */
+    const char *operands;       /* "SCENE...", "" */
     const char *doc;            /* no capital, no full stop */
     const char *text[8];        /* paragraphs, up to a NULL */
     struct example examples[8]; /* up to a NULL */

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "cli/help.h"
+#include "monge.h"
 
 /* The words of a|b|c with spaces between. */
 static void print_choices(FILE *out, const char *choices) {
@@ -12,6 +13,18 @@ static void print_choices(FILE *out, const char *choices) {
 static void print_commands(FILE *out) {
     for (enum command_id c = COMMAND_NONE + 1; c < COMMANDS; c++)
         fprintf(out, "%s%s", c > 1 ? " " : "", COMMAND_TABLE[c].name);
+}
+
+static void print_codes(FILE *out) {
+    for (size_t i = 0; monge_code(i); i++) fprintf(out, "%s%s", i > 0 ? " " : "", monge_code(i));
+}
+
+/* What `monge help` may be followed by. */
+static void print_help_words(FILE *out) {
+    print_commands(out);
+    fputs(" language", out);
+    for (size_t i = 0; monge_kind(i); i++)
+        if (command_find(monge_kind(i)) == COMMAND_NONE) fprintf(out, " %s", monge_kind(i));
 }
 
 static void print_options(FILE *out, enum command_id command) {
@@ -78,9 +91,14 @@ static void print_bash(FILE *out) {
           "    elif [[ ${COMP_WORDS[1]} == help ]]; then\n"
           "        mapfile -t COMPREPLY < <(compgen -W '",
           out);
-    print_commands(out);
+    print_help_words(out);
     fputs("' -- \"$word\")\n"
-          "    else\n"
+          "    elif [[ ${COMP_WORDS[1]} == explain ]]; then\n"
+          "        mapfile -t COMPREPLY < <(compgen -W '",
+          out);
+    print_codes(out);
+    fputs("' -- \"$word\")\n"
+          "    elif [[ ${COMP_WORDS[1]} != schema ]]; then\n"
           "        mapfile -t COMPREPLY < <(compgen -d -- \"$word\"; compgen -f -X '!*.y*ml' -- \"$word\")\n"
           "    fi\n"
           "}\n"
@@ -156,9 +174,12 @@ static void print_zsh(FILE *out) {
             fputs("            '*:scene:_files -g \"*.y(a|)ml\"'\n        ;;\n", out);
             continue;
         }
-        fputs("            '1:command:(", out);
-        print_commands(out);
-        fputs(")'\n        ;;\n", out);
+        if (c == COMMAND_HELP || c == COMMAND_EXPLAIN) {
+            fputs(c == COMMAND_HELP ? "            '1:word:(" : "            '*:code:(", out);
+            (c == COMMAND_HELP ? print_help_words : print_codes)(out);
+            fputs(")' \\\n", out);
+        }
+        fputs("            && return\n        ;;\n", out);
     }
     fputs("    esac\n"
           "}\n"
@@ -196,8 +217,10 @@ static void print_fish(FILE *out) {
         fprintf(out, "complete -c monge -n __fish_use_subcommand -a %s -d '%s'\n", COMMAND_TABLE[c].name,
                 COMMAND_TABLE[c].doc);
     fputs("complete -c monge -n '__fish_seen_subcommand_from help' -f -a '", out);
-    print_commands(out);
-    fputs("'\n", out);
+    print_help_words(out);
+    fputs("'\ncomplete -c monge -n '__fish_seen_subcommand_from explain' -f -a '", out);
+    print_codes(out);
+    fputs("'\ncomplete -c monge -n '__fish_seen_subcommand_from schema' -f\n", out);
     for (enum command_id c = COMMAND_NONE; c < COMMANDS; c++)
         for (enum option_id o = 0; o < OPTIONS; o++)
             if (command_takes(c, o)) print_fish_option(out, c, o);

@@ -5,6 +5,7 @@
 #include "cli/completion.h"
 #include "cli/manual.h"
 #include "cli/say.h"
+#include "cli/suggest.h"
 #include "monge.h"
 
 enum { LINE_WIDTH = 80, DOC_COLUMN = 34 };
@@ -72,13 +73,20 @@ static void print_overview(FILE *out) {
         print_row(out, left, COMMAND_TABLE[c].doc);
     }
     print_options(out, COMMAND_NONE);
-    fputs("\n`monge help COMMAND` tells more. Exit status:\n", out);
+    fputs("\n`monge help COMMAND` tells more, `monge help language` how to write scenes.\nExit status:\n",
+          out);
     for (int s = 0; s <= STATUS_TROUBLE; s++) fprintf(out, "  %d  %s\n", s, STATUS_DOC[s]);
+}
+
+static bool is_kind(const char *word) {
+    for (size_t i = 0; monge_kind(i); i++)
+        if (strcmp(monge_kind(i), word) == 0) return true;
+    return false;
 }
 
 static void print_command(FILE *out, enum command_id command) {
     const struct command_row *row = &COMMAND_TABLE[command];
-    fprintf(out, "usage: monge %s %s [OPTION...]\n", row->name, row->operands);
+    fprintf(out, "usage: monge %s%s%s [OPTION...]\n", row->name, *row->operands ? " " : "", row->operands);
     for (int i = 0; row->text[i]; i++) {
         fputc('\n', out);
         print_wrapped(out, row->text[i], 0, 0);
@@ -87,6 +95,9 @@ static void print_command(FILE *out, enum command_id command) {
     fputs("\nexamples:\n", out);
     for (int i = 0; row->examples[i].line; i++)
         fprintf(out, "  %s\n      %s\n", row->examples[i].line, row->examples[i].doc);
+    if (!is_kind(row->name)) return;
+    fprintf(out, "\n`%s` is also a word of scenes. ", row->name);
+    monge_help(row->name, out);
 }
 
 void help_print(FILE *out, enum command_id command) {
@@ -96,10 +107,25 @@ void help_print(FILE *out, enum command_id command) {
         print_command(out, command);
 }
 
+/* Help for a word that is neither a command nor of a scene. */
+static enum status unknown_word(const char *word) {
+    struct suggestion nearest = {.word = word};
+    for (enum command_id c = COMMAND_NONE + 1; c < COMMANDS; c++)
+        suggestion_try(&nearest, COMMAND_TABLE[c].name);
+    const char *best = suggestion_best(&nearest);
+    if (!best) best = monge_help_nearest(word);
+    if (best)
+        say_usage(COMMAND_NONE, "help: no command and no word of scenes `%s`; did you mean `%s`?", word,
+                  best);
+    else
+        say_usage(COMMAND_NONE, "help: no command and no word of scenes `%s`", word);
+    return STATUS_TROUBLE;
+}
+
 enum status help_command(const struct arguments *args) {
     const struct option_value *completion = &args->option[OPTION_COMPLETION];
     if (args->count > 1) {
-        say_usage(COMMAND_HELP, "help: expected one command, found `%s` as well", args->operands[1]);
+        say_usage(COMMAND_HELP, "help: expected one word, found `%s` as well", args->operands[1]);
         return STATUS_TROUBLE;
     }
     if (args->option[OPTION_MAN].given) {
@@ -111,7 +137,7 @@ enum status help_command(const struct arguments *args) {
         return STATUS_YES;
     }
     if (args->count == 1 && command_find(args->operands[0]) == COMMAND_NONE)
-        return command_unknown(args->operands[0]);
+        return monge_help(args->operands[0], stdout) ? STATUS_YES : unknown_word(args->operands[0]);
     help_print(stdout, args->count == 1 ? command_find(args->operands[0]) : COMMAND_NONE);
     return STATUS_YES;
 }

@@ -53,6 +53,20 @@ static void print_command(FILE *out, enum command_id command) {
         if (command_takes(command, o)) print_option(out, o);
 }
 
+static void print_scenes(FILE *out) {
+    fputs(".SH SCENES\nA scene, to begin with:\n.PP\n.nf\n", out);
+    for (const char *line = monge_example(); *line; line = strchr(line, '\n') + 1) {
+        char text[120];
+        snprintf(text, sizeof text, "%.*s", (int)strcspn(line, "\n"), line);
+        fputs("    ", out);
+        print_line(out, text);
+    }
+    fputs(".fi\n.PP\n", out);
+    print_line(out, "The objects, materials, lights and all other mappings of a scene, and their keys, are told by "
+                    "`monge help WORD`; `monge help language` lists them. `monge check` finds the mistakes of a scene, "
+                    "and `monge schema` lets an editor find them as you type.");
+}
+
 static void print_examples(FILE *out) {
     fputs(".SH EXAMPLES\n", out);
     for (enum command_id c = COMMAND_NONE + 1; c < COMMANDS; c++) {
@@ -78,6 +92,7 @@ void manual_print(FILE *out) {
     fputs(".SH OPTIONS\n", out);
     for (enum option_id o = 0; o < OPTIONS; o++)
         if (command_takes(COMMAND_NONE, o)) print_option(out, o);
+    print_scenes(out);
     fputs(".SH EXIT STATUS\n", out);
     for (int s = 0; s <= STATUS_TROUBLE; s++) {
         fprintf(out, ".TP\n%d\n", s);

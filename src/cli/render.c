@@ -43,14 +43,10 @@ static bool choose_region(const struct option_value *option, const char *scene,
 
 /* ---- One picture ---- */
 
-static bool write_film(const struct monge_film *film, const char *path) {
-    struct monge_diagnostics *diag = monge_diagnostics_new();
+static bool write_film(const struct monge_film *film, const char *path, struct report *report) {
+    struct monge_diagnostics *diag = report_open(report);
     const bool written = diag && monge_film_write_png(film, path, diag);
-    if (!diag)
-        say_error("out of memory");
-    else if (!interrupt_pending())
-        monge_diagnostics_print(diag, stderr);
-    monge_diagnostics_free(diag);
+    if (diag) report_close(report, diag, !interrupt_pending());
     return written;
 }
 
@@ -74,7 +70,7 @@ static struct monge_film *render_film(const struct option_value *option, const c
 
 /* Everything after loading. A signal in here ends the program once nothing is half done. */
 static enum status render_scene(const struct option_value *option, const struct output *output,
-                                struct monge_scene *scene, struct picture *picture) {
+                                struct monge_scene *scene, struct report *report, struct picture *picture) {
     picture->settings = monge_scene_settings(scene);
     override_settings(option, &picture->settings);
     const char *wrong = monge_settings_check(&picture->settings);
@@ -85,7 +81,7 @@ static enum status render_scene(const struct option_value *option, const struct 
     interrupt_defer();
     struct monge_film *film = render_film(option, output->name, scene, &picture->region, picture);
     const double rendered = clock_seconds();
-    picture->done = film && write_film(film, output->path);
+    picture->done = film && write_film(film, output->path, report);
     picture->write_seconds = clock_seconds() - rendered;
     picture->peak_memory_bytes = stats_peak_memory();
     monge_film_free(film);
@@ -94,17 +90,17 @@ static enum status render_scene(const struct option_value *option, const struct 
 }
 
 static enum status render_output(const struct option_value *option, const struct output *output,
-                                 struct picture *picture) {
+                                 struct report *report, struct picture *picture) {
     const double begun = clock_seconds();
     *picture = (struct picture){.scene = output->scene, .output = output->path};
-    struct load load = load_scene(output->scene);
+    struct load load = load_scene(output->scene, report);
     const double loaded = clock_seconds();
     if (!load.scene) return load.status;
     const bool built = monge_scene_prepare(load.scene); /* here a signal may still end the program at once */
     const double prepared = clock_seconds();
     if (!built)
         say_error("%s: no memory for %zu primitives", output->scene, monge_scene_primitives(load.scene));
-    const enum status status = built ? render_scene(option, output, load.scene, picture) : STATUS_TROUBLE;
+    const enum status status = built ? render_scene(option, output, load.scene, report, picture) : STATUS_TROUBLE;
     picture->primitives = monge_scene_primitives(load.scene);
     picture->load_seconds = loaded - begun;
     picture->stats.build_seconds += prepared - loaded;
@@ -118,12 +114,12 @@ static enum status render_output(const struct option_value *option, const struct
 /* ---- All pictures ---- */
 
 static enum status render_outputs(const struct arguments *args, const struct output *outputs,
-                                  struct picture *pictures) {
+                                  struct report *report, struct picture *pictures) {
     const struct option_value *option = args->option;
     enum status worst = STATUS_YES;
     size_t done = 0;
     for (size_t i = 0; i < args->count; i++) {
-        const enum status status = render_output(option, &outputs[i], &pictures[i]);
+        const enum status status = render_output(option, &outputs[i], report, &pictures[i]);
         if (status > worst) worst = status;
         done += pictures[i].done;
     }
@@ -135,6 +131,16 @@ static enum status render_outputs(const struct arguments *args, const struct out
     if (!stats_write(stats, pictures, args->count)) worst = STATUS_TROUBLE;
     interrupt_settle();
     return worst;
+}
+
+/* A document on stderr must be alone there: the notes are left out. */
+static enum status render_reported(struct arguments args, const struct output *outputs, struct picture *pictures) {
+    struct report report;
+    if (!report_begin(&report, &args)) return STATUS_TROUBLE;
+    if (report.format != MONGE_FORMAT_TEXT) args.option[OPTION_QUIET].given = true;
+    const enum status status = render_outputs(&args, outputs, &report, pictures);
+    report_end(&report, stderr);
+    return status;
 }
 
 enum status render_command(const struct arguments *args) {
@@ -150,7 +156,7 @@ enum status render_command(const struct arguments *args) {
         say_error("out of memory");
     else if (outputs_plan(option[OPTION_OUTPUT].text, option[OPTION_STATS].text, args->operands, args->count,
                           outputs))
-        status = render_outputs(args, outputs, pictures);
+        status = render_reported(*args, outputs, pictures);
     if (outputs) outputs_free(outputs, args->count);
     free(outputs);
     free(pictures);

@@ -17,37 +17,6 @@ uint64_t stats_peak_memory(void) {
 
 /* ---- JSON ---- */
 
-/* The length of the UTF-8 character at `s`, 0 where it is none (Unicode 15, table 3-7). */
-static size_t utf8_length(const unsigned char *s) {
-    if (s[0] < 0x80) return 1;
-    const size_t length = s[0] < 0xc2 ? 0 : s[0] < 0xe0 ? 2 : s[0] < 0xf0 ? 3 : s[0] < 0xf5 ? 4 : 0;
-    const unsigned char low = s[0] == 0xe0 ? 0xa0 : s[0] == 0xf0 ? 0x90 : 0x80;
-    const unsigned char high = s[0] == 0xed ? 0x9f : s[0] == 0xf4 ? 0x8f : 0xbf;
-    if (length && (s[1] < low || s[1] > high)) return 0;
-    for (size_t i = 2; i < length; i++)
-        if ((s[i] & 0xc0) != 0x80) return 0;
-    return length;
-}
-
-/* File names may hold any bytes: what is no UTF-8 becomes U+FFFD. */
-static void print_string(FILE *out, const char *text) {
-    const unsigned char *s = (const unsigned char *)text;
-    fputc('"', out);
-    while (*s) {
-        const size_t length = utf8_length(s);
-        if (length == 0)
-            fputs("\\ufffd", out);
-        else if (*s == '"' || *s == '\\')
-            fprintf(out, "\\%c", *s);
-        else if (*s < 0x20 || *s == 0x7f)
-            fprintf(out, "\\u%04x", *s);
-        else
-            fwrite(s, 1, length, out);
-        s += length ? length : 1;
-    }
-    fputc('"', out);
-}
-
 static void print_rays(FILE *out, const uint64_t rays[MONGE_RAY_KINDS]) {
     static const char *const names[MONGE_RAY_KINDS] = {
         [MONGE_RAY_CAMERA] = "camera",
@@ -66,9 +35,9 @@ static void print_rays(FILE *out, const uint64_t rays[MONGE_RAY_KINDS]) {
 
 static void print_picture(FILE *out, const struct picture *p) {
     fputs("    {\"scene\": ", out);
-    print_string(out, p->scene);
+    monge_write_json_string(p->scene, out);
     fputs(", \"output\": ", out);
-    print_string(out, p->output);
+    monge_write_json_string(p->output, out);
     if (!p->done) {
         fputs(", \"error\": true}", out);
         return;
@@ -83,7 +52,7 @@ static void print_picture(FILE *out, const struct picture *p) {
 
 static void print_all(FILE *out, const struct picture *pictures, size_t count) {
     fputs("{\n  \"version\": ", out);
-    print_string(out, monge_version());
+    monge_write_json_string(monge_version(), out);
     fputs(",\n  \"pictures\": [\n", out);
     for (size_t i = 0; i < count; i++) {
         print_picture(out, &pictures[i]);

@@ -37,12 +37,15 @@ static void collect_item(struct checker *ck, struct collection *c, const struct 
     const struct binding *b = scope_stands_for(ck, item);
     if (b && b->kind == BINDING_UNKNOWN) return;
     const struct scope *outer = ck->scope;
+    const struct diag_frame frame = scope_frame(ck, item);
     if (b) ck->scope = b->scope;
+    if (b) ck->diag->frame = &frame;
     c->item = b ? b->node : item;
     const struct node *n = node_resolve(c->item);
     const struct node *loop = n->kind == NODE_MAPPING && grammar_find_key(c->kind, "for") >= 0 ? node_get(n, "for") : NULL;
     if (loop) loop_run(ck, loop, collect, c);
     else collect(ck, c);
+    ck->diag->frame = frame.outer;
     ck->scope = outer;
 }
 
@@ -125,7 +128,7 @@ static bool check_values(struct checker *ck, const struct grammar_key *key, cons
     }
     bool good = true;
     for (const struct node *name = n->first; name; name = name->next->next) {
-        if (!node_is_null(name->next)) continue;
+        if (!node_is_null(name->next) || key->type == GRAMMAR_MAP) continue; /* define.c reads a map's */
         diag_help(ck->diag, diag_error(ck->diag, name->span, "no-value", "`%s` has no value", node_resolve(name)->kind == NODE_SCALAR ? short_text(ck, node_resolve(name)->text) : "it"), "give it one, or remove the key");
         good = false;
     }
@@ -161,18 +164,21 @@ static bool check_value(struct checker *ck, const struct grammar_key *key, const
     const struct binding *b = may_vary(key) ? scope_stands_for(ck, node) : NULL;
     out->span = node->span;
     if (!b) return check_written(ck, key, node, out);
-    if (b->kind == BINDING_UNKNOWN) {
-        take_any(ck, key, out);
-        return ck->rehearsing;
-    }
     if (key->type == GRAMMAR_LIST && key->of == &grammar_kinds[KIND_OBJECT]) {
         out->node = node; /* place.c follows it */
         return true;
     }
-    if (!place_descend(ck, node)) return false;
+    if (b->kind == BINDING_UNKNOWN) {
+        take_any(ck, key, out);
+        return ck->rehearsing;
+    }
+    if (!place_descend(ck, node->span)) return false;
     const struct scope *outer = ck->scope;
+    const struct diag_frame frame = scope_frame(ck, node);
     ck->scope = b->scope;
+    ck->diag->frame = &frame;
     const bool good = check_value(ck, key, b->node, out);
+    ck->diag->frame = frame.outer;
     ck->scope = outer;
     ck->depth--;
     return good;
@@ -236,7 +242,10 @@ static void check_unknown(struct checker *ck, struct object_value *object, struc
     if (index < 0) return;
     const bool again = mapping->given[index] || mapping->meant[index];
     mapping->meant[index] = true;
-    if (!again) check_field(ck, object->kind, &object->kind->keys[index], name);
+    const struct grammar_key *key = &object->kind->keys[index];
+    const struct value *value = again ? NULL : check_field(ck, object->kind, key, name);
+    if (value && key->type == GRAMMAR_LIST && key->of == &grammar_kinds[KIND_OBJECT])
+        place_members(ck, (int)(object->kind - grammar_kinds), index, value->node);
 }
 
 /* The pair's value goes to its field. False: something of it was reported. */
@@ -262,7 +271,7 @@ static bool check_pair(struct checker *ck, struct object_value *object, struct m
 static void check_required(struct checker *ck, struct object_value *object, const struct mapping *mapping) {
     for (int i = 0; i < object->kind->key_count; i++) {
         const struct grammar_key *key = &object->kind->keys[i];
-        if (!key->required || mapping->given[i]) continue;
+        if (!key->required || mapping->given[i] || (ck->included && object->kind == &grammar_kinds[KIND_FILE])) continue;
         object->failed = true;
         if (mapping->meant[i]) continue; /* reported as an unknown key */
         struct diagnostic *d = diag_error(ck->diag, object->span, "missing-key", "%s needs the key `%s`", object->kind->title, key->name);
@@ -341,26 +350,40 @@ static bool check_pairs(struct checker *ck, struct object_value *object, struct 
     return unknown;
 }
 
+/* Bit i: key i of the kind is in the mapping. */
+static uint64_t find_given(const struct grammar_kind *kind, struct mapping *mapping) {
+    uint64_t given = 0;
+    memset(mapping->given, 0, (size_t)kind->key_count * sizeof *mapping->given);
+    memset(mapping->meant, 0, (size_t)kind->key_count * sizeof *mapping->meant);
+    for (const struct node *name = mapping->node->first; name; name = name->next->next) {
+        const int index = key_index(kind, name);
+        if (index < 0 || mapping->given[index]) continue;
+        mapping->given[index] = name;
+        given |= (uint64_t)1 << index;
+    }
+    return given;
+}
+
+static bool is_one(uint64_t bits) { return bits && !(bits & (bits - 1)); }
+
 struct object_value *check_object(struct checker *ck, const struct grammar_kind *kind, const struct node *node) {
-    struct mapping mapping = {.node = node_resolve(node)};
+    struct mapping mapping;
+    mapping.node = node_resolve(node);
     if (mapping.node->kind != NODE_MAPPING) {
         report_no_mapping(ck, kind, node);
         return NULL;
     }
     assert(kind->key_count <= CHECK_MAX_KEYS);
-    for (const struct node *name = mapping.node->first; name; name = name->next->next) {
-        const int index = key_index(kind, name);
-        if (index >= 0 && !mapping.given[index]) mapping.given[index] = name;
-    }
-    struct object_value *object = arena_alloc(ck->arena, sizeof *object);
+    const uint64_t given = find_given(kind, &mapping);
+    struct object_value *object = arena_alloc(ck->arena, sizeof *object + (size_t)kind->key_count * sizeof *object->fields);
     object->kind = kind;
     object->span = node->span;
-    object->fields = arena_array(ck->arena, (size_t)kind->key_count, sizeof *object->fields);
+    object->fields = (struct value **)(object + 1);
     mapping.object = object;
     const bool unknown = check_pairs(ck, object, &mapping);
-    check_required(ck, object, &mapping);
-    check_alternatives(ck, object, &mapping, unknown);
-    for (int i = 0; i < kind->key_count; i++)
+    if (kind->required & ~given) check_required(ck, object, &mapping);
+    if (kind->alternatives && !is_one(kind->alternatives & given)) check_alternatives(ck, object, &mapping, unknown);
+    for (int i = 0; i < kind->key_count && (kind->companions & given) >> i; i++)
         if (mapping.given[i]) check_companion(ck, object, &mapping, i);
     if (kind == &grammar_kinds[KIND_MATERIAL] && !inherit(ck, object)) object->failed = true;
     return object;

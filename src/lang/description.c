@@ -46,6 +46,6 @@ int object_alternative(const struct object_value *object) {
 
 int grammar_find_key(const struct grammar_kind *kind, const char *name) {
     for (int i = 0; i < kind->key_count; i++)
-        if (strcmp(kind->keys[i].name, name) == 0) return i;
+        if (kind->keys[i].name[0] == name[0] && strcmp(kind->keys[i].name, name) == 0) return i;
     return -1;
 }

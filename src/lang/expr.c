@@ -17,15 +17,23 @@ typedef const struct term *(*parse_function)(struct parser *p);
 static const struct term *parse_choice(struct parser *p);
 static const struct term *parse_unary(struct parser *p);
 
-static bool at_symbol(const struct parser *p, int symbol) { return p->token.kind == TOKEN_SYMBOL && p->token.symbol == symbol; }
+static bool at_symbol(const struct parser *p, int symbol) {
+    return p->token.kind == TOKEN_SYMBOL && p->token.symbol == symbol;
+}
 
 static struct term *make(struct parser *p, enum term_kind kind, uint32_t begin, struct token at) {
     struct term *term = arena_alloc(p->arena, sizeof *term);
-    *term = (struct term){.kind = kind, .symbol = at.symbol, .begin = begin, .end = p->last.offset + p->last.length, .offset = at.offset, .length = at.length};
+    *term = (struct term){.kind = kind,
+                          .symbol = at.symbol,
+                          .begin = begin,
+                          .end = p->last.offset + p->last.length,
+                          .offset = at.offset,
+                          .length = at.length};
     return term;
 }
 
-static const struct term *with_parts(struct parser *p, struct term *term, unsigned count, const struct term *const *parts) {
+static const struct term *with_parts(struct parser *p, struct term *term, unsigned count,
+                                     const struct term *const *parts) {
     term->count = count;
     term->parts = arena_array(p->arena, count, sizeof *parts);
     memcpy(term->parts, parts, count * sizeof *parts);
@@ -41,7 +49,8 @@ static const struct term *make_value(struct parser *p, struct token at, struct q
 /* Parses what is one level deeper. */
 static const struct term *parse_deeper(struct parser *p, parse_function parse) {
     if (p->depth == EXPR_DEPTH_MAX) {
-        slip(p, p->token.offset, p->token.length, "expression-too-deep", "an expression may nest 100 levels deep", "give a part of it a name of its own");
+        slip(p, p->token.offset, p->token.length, "expression-too-deep",
+             "an expression may nest 100 levels deep", "give a part of it a name of its own");
         return NULL;
     }
     p->depth++;
@@ -60,7 +69,8 @@ static bool close(struct parser *p, struct token opener, int closer) {
 
 /* strtod takes the decimal point of the program's locale, the language a point. */
 static double number_value(struct parser *p, struct token token) {
-    const char *point = localeconv()->decimal_point, *text = arena_text(p->arena, p->text + token.offset, token.length);
+    const char *point = localeconv()->decimal_point,
+               *text = arena_text(p->arena, p->text + token.offset, token.length);
     const char *at = strchr(text, '.');
     if (at) text = arena_format(p->arena, "%.*s%s%s", (int)(at - text), text, point, at + 1);
     return strtod(text, NULL);
@@ -80,14 +90,16 @@ static const struct term *parse_color(struct parser *p) {
     const struct token token = p->token;
     vec3 color;
     if (!color_parse(arena_text(p->arena, p->text + token.offset, token.length), &color)) {
-        slip(p, token.offset, token.length, "bad-expression", "a colour in hexadecimal has 3 or 6 digits 0-9 a-f", NULL);
+        slip(p, token.offset, token.length, "bad-expression",
+             "a colour in hexadecimal has 3 or 6 digits 0-9 a-f", NULL);
         return NULL;
     }
     return lexer_next(p) ? make_value(p, token, (struct quantity){3, {color.x, color.y, color.z}}) : NULL;
 }
 
-/* choice {"," choice} closer; `most` at most. At least one unless `least` is 0. False: told. */
-static bool parse_list(struct parser *p, struct token opener, int closer, const struct term **parts, unsigned *count) {
+/* choice {"," choice}, and the closing bracket. False: told. */
+static bool parse_list(struct parser *p, struct token opener, int closer, const struct term **parts,
+                       unsigned *count) {
     *count = 0;
     while (*count < FUNCTION_ARGUMENTS) {
         if (!(parts[(*count)++] = parse_deeper(p, parse_choice))) return false;
@@ -101,7 +113,8 @@ static bool wrong_arguments(struct parser *p, struct token name, const struct gr
     const char *many = f->least == f->most ? "" : count < f->least ? "at least " : "at most ";
     const unsigned wanted = count < f->least ? f->least : f->most;
     return slip(p, name.offset, name.length, "wrong-arguments",
-                arena_format(p->arena, "`%s` takes %s%u argument%s, found %u", f->name, many, wanted, wanted == 1 ? "" : "s", count),
+                arena_format(p->arena, "`%s` takes %s%u argument%s, found %u", f->name, many, wanted,
+                             wanted == 1 ? "" : "s", count),
                 arena_format(p->arena, "%s: %s", f->call, f->doc));
 }
 
@@ -150,7 +163,8 @@ static const struct term *parse_vector(struct parser *p) {
     unsigned count;
     if (!lexer_next(p) || !parse_list(p, opener, ']', parts, &count)) return NULL;
     if (count < 2 || count > 4) {
-        slip(p, opener.offset, p->last.offset + 1 - opener.offset, "bad-expression", arena_format(p->arena, "a vector has 2 to 4 numbers, found %u", count),
+        slip(p, opener.offset, p->last.offset + 1 - opener.offset, "bad-expression",
+             arena_format(p->arena, "a vector has 2 to 4 numbers, found %u", count),
              count == 1 ? "remove the brackets" : NULL);
         return NULL;
     }
@@ -216,7 +230,8 @@ static const struct term *parse_postfix(struct parser *p) {
 }
 
 /* Goes on behind an operator, whose right side `parse` parses. */
-static const struct term *parse_right(struct parser *p, uint32_t begin, const struct term *left, parse_function parse) {
+static const struct term *parse_right(struct parser *p, uint32_t begin, const struct term *left,
+                                      parse_function parse) {
     const struct token at = p->token;
     const struct term *parts[] = {left, NULL};
     if (!lexer_next(p) || !(parts[1] = parse(p))) return NULL;
@@ -241,7 +256,7 @@ static const struct term *parse_unary(struct parser *p) {
     return operand ? with_parts(p, make(p, TERM_UNARY, at.offset, at), 1, &operand) : NULL;
 }
 
-/* lower {operator lower}, operators a list that ends with 0; `most` of them at most. */
+/* lower {operator lower}, or lower [operator lower] if not `many`. The operators end with 0. */
 static const struct term *parse_row(struct parser *p, parse_function lower, const int *operators, bool many) {
     const uint32_t begin = p->token.offset;
     const struct term *term = lower(p);
@@ -256,10 +271,14 @@ static const struct term *parse_row(struct parser *p, parse_function lower, cons
 }
 
 /* product = unary {("*" | "/" | "%") unary} */
-static const struct term *parse_product(struct parser *p) { return parse_row(p, parse_unary, (const int[]){'*', '/', '%', 0}, true); }
+static const struct term *parse_product(struct parser *p) {
+    return parse_row(p, parse_unary, (const int[]){'*', '/', '%', 0}, true);
+}
 
 /* sum = product {("+" | "-") product} */
-static const struct term *parse_sum(struct parser *p) { return parse_row(p, parse_product, (const int[]){'+', '-', 0}, true); }
+static const struct term *parse_sum(struct parser *p) {
+    return parse_row(p, parse_product, (const int[]){'+', '-', 0}, true);
+}
 
 /* order = sum [("<" | "<=" | ">" | ">=") sum] */
 static const struct term *parse_order(struct parser *p) {
@@ -272,10 +291,14 @@ static const struct term *parse_equal(struct parser *p) {
 }
 
 /* and = equal {"&&" equal} */
-static const struct term *parse_and(struct parser *p) { return parse_row(p, parse_equal, (const int[]){SYMBOL('&', '&'), 0}, true); }
+static const struct term *parse_and(struct parser *p) {
+    return parse_row(p, parse_equal, (const int[]){SYMBOL('&', '&'), 0}, true);
+}
 
 /* or = and {"||" and} */
-static const struct term *parse_or(struct parser *p) { return parse_row(p, parse_and, (const int[]){SYMBOL('|', '|'), 0}, true); }
+static const struct term *parse_or(struct parser *p) {
+    return parse_row(p, parse_and, (const int[]){SYMBOL('|', '|'), 0}, true);
+}
 
 /* choice = or ["?" choice ":" choice] */
 static const struct term *parse_choice(struct parser *p) {
@@ -296,10 +319,12 @@ static const struct term *parse_choice(struct parser *p) {
 
 struct expr *expr_parse(struct arena *arena, const char *text, size_t size, struct expr_error *error) {
     if (size > EXPR_SIZE_MAX) {
-        *error = (struct expr_error){0, size, "expression-too-long", "an expression may have 4096 bytes", "give a part of it a name of its own"};
+        *error = (struct expr_error){0, size, "expression-too-long", "an expression may have 4096 bytes",
+                                     "give a part of it a name of its own"};
         return NULL;
     }
-    struct parser p = {.arena = arena, .text = arena_text(arena, text, size), .size = (uint32_t)size, .error = error};
+    struct parser p = {
+        .arena = arena, .text = arena_text(arena, text, size), .size = (uint32_t)size, .error = error};
     const struct term *root = lexer_next(&p) ? parse_choice(&p) : NULL;
     if (!root || (p.token.kind != TOKEN_END && !slip_after_value(&p, (struct token){0}))) return NULL;
     struct expr *expr = arena_alloc(arena, sizeof *expr);

@@ -1,7 +1,5 @@
 #include <math.h>
-#include <string.h>
 
-#include "lang/checker.h"
 #include "lang/expr_errors.h"
 #include "lang/functions.h"
 
@@ -33,7 +31,8 @@ static enum expr_result evaluate_name(const struct evaluation *e, const struct t
 
 static enum expr_result evaluate_unary(const struct evaluation *e, const struct term *term, struct quantity *out) {
     double condition = 0.0;
-    const enum expr_result result = term->symbol == '!' ? evaluate_number(e, term->parts[0], &condition) : evaluate(e, term->parts[0], out);
+    const enum expr_result result = term->symbol == '!' ? evaluate_number(e, term->parts[0], &condition)
+                                                        : evaluate(e, term->parts[0], out);
     if (result != EXPR_OK) return result;
     if (term->symbol == '!') *out = truths[condition == 0.0];
     if (term->symbol == '-')
@@ -62,7 +61,8 @@ static bool compare(int symbol, double a, double b) {
     }
 }
 
-static enum expr_result evaluate_comparison(const struct evaluation *e, const struct term *term, struct quantity *out) {
+static enum expr_result evaluate_comparison(const struct evaluation *e, const struct term *term,
+                                            struct quantity *out) {
     double a = 0.0, b = 0.0;
     enum expr_result result = evaluate_number(e, term->parts[0], &a);
     if (result == EXPR_OK) result = evaluate_number(e, term->parts[1], &b);
@@ -82,7 +82,8 @@ static double calculate(int symbol, double a, double b) {
     }
 }
 
-static enum expr_result evaluate_arithmetic(const struct evaluation *e, const struct term *term, struct quantity *out) {
+static enum expr_result evaluate_arithmetic(const struct evaluation *e, const struct term *term,
+                                            struct quantity *out) {
     struct quantity a, b;
     enum expr_result result = evaluate(e, term->parts[0], &a);
     if (result == EXPR_OK) result = evaluate(e, term->parts[1], &b);
@@ -117,14 +118,16 @@ static enum expr_result evaluate_part(const struct evaluation *e, const struct t
     enum expr_result result = evaluate(e, term->parts[0], &whole);
     if (result == EXPR_OK) result = evaluate_number(e, term->parts[1], &index);
     if (result != EXPR_OK) return result;
-    if (whole.count == 1 || !(index >= 0.0 && index < whole.count) || index != floor(index)) return wrong_part(e, term, &whole, index);
+    if (whole.count == 1 || !(index >= 0.0 && index < whole.count) || index != floor(index))
+        return wrong_part(e, term, &whole, index);
     *out = (struct quantity){1, {whole.v[(unsigned)index]}};
     return EXPR_OK;
 }
 
 static enum expr_result evaluate_vector(const struct evaluation *e, const struct term *term, struct quantity *out) {
     enum expr_result result = EXPR_OK;
-    for (unsigned i = 0; i < term->count && result == EXPR_OK; i++) result = evaluate_number(e, term->parts[i], &out->v[i]);
+    for (unsigned i = 0; i < term->count && result == EXPR_OK; i++)
+        result = evaluate_number(e, term->parts[i], &out->v[i]);
     out->count = term->count;
     return result;
 }
@@ -172,7 +175,8 @@ static enum expr_result check(const struct evaluation *e, const struct term *ter
     return EXPR_OK;
 }
 
-enum expr_result expr_check(const struct expr *expr, const struct expr_scope *scope, struct arena *arena, struct expr_error *error) {
+enum expr_result expr_check(const struct expr *expr, const struct expr_scope *scope, struct arena *arena,
+                            struct expr_error *error) {
     const struct evaluation e = {expr->text, scope, arena, error};
     return check(&e, expr->root);
 }

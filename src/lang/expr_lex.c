@@ -87,15 +87,18 @@ static bool slip_number(struct parser *p, const char *start, const char *end) {
     }
     if (start[0] == '0' && is_digit(start[1])) {
         while (start + 1 < end && *start == '0' && is_digit(start[1])) start++;
-        return slip(p, p->token.offset, (size_t)(end - p->text) - p->token.offset, "leading-zero", "a number with a leading zero",
-                    arena_format(p->arena, "write %.*s; some readers take a leading zero for base 8", (int)(end - start), start));
+        return slip(p, p->token.offset, (size_t)(end - p->text) - p->token.offset, "leading-zero",
+                    "a number with a leading zero",
+                    arena_format(p->arena, "write %.*s; some readers take a leading zero for base 8",
+                                 (int)(end - start), start));
     }
     char *plain = arena_text(p->arena, start, strspn(start, "0123456789_")), *to = plain;
     const size_t length = strlen(plain);
     for (const char *from = plain; *from; from++)
         if (*from != '_') *to++ = *from;
     *to = '\0';
-    return slip(p, p->token.offset, length, "bad-expression", "a number has no underscores", arena_format(p->arena, "write %s", plain));
+    return slip(p, p->token.offset, length, "bad-expression", "a number has no underscores",
+                arena_format(p->arena, "write %s", plain));
 }
 
 /* number = digits ["." digits] ["e" ["+" | "-"] digits], with digits on one side of the point at least. */
@@ -131,18 +134,22 @@ static bool lex_symbol(struct parser *p, const char *start) {
         if (starts(start, slips[i].found))
             return slip(p, p->token.offset, strlen(slips[i].found), "bad-expression",
                         arena_format(p->arena, "%s%s%s", slips[i].name ? slips[i].name : "`",
-                                     slips[i].name ? "" : slips[i].found, slips[i].name ? " is no sign of the language" : "` is no operator"),
+                                     slips[i].name ? "" : slips[i].found,
+                                     slips[i].name ? " is no sign of the language" : "` is no operator"),
                         arena_format(p->arena, "write `%s`", slips[i].meant));
     for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++)
         if (starts(start, pairs[i])) return take(p, TOKEN_SYMBOL, SYMBOL(start[0], start[1]), start + 2);
     for (size_t i = 0; i < sizeof strangers / sizeof *strangers; i++)
         if (starts(start, strangers[i].found))
-            return slip(p, p->token.offset, strlen(strangers[i].found), "bad-expression", strangers[i].message, strangers[i].help);
-    if (strchr("+-*/%^!<>?:,.()[]", *start)) return take(p, TOKEN_SYMBOL, *start, start + 1);
+            return slip(p, p->token.offset, strlen(strangers[i].found), "bad-expression",
+                        strangers[i].message, strangers[i].help);
+    if (*start && strchr("+-*/%^!<>?:,.()[]", *start)) return take(p, TOKEN_SYMBOL, *start, start + 1);
     const bool plain = *start > ' ' && *start < 0x7f;
-    return slip(p, p->token.offset, 1, "bad-expression",
-                plain ? arena_format(p->arena, "`%c` has no meaning here", *start)
-                      : arena_format(p->arena, "a character (%02x) that has no meaning here", (unsigned char)*start), NULL);
+    return slip(
+        p, p->token.offset, 1, "bad-expression",
+        plain ? arena_format(p->arena, "`%c` has no meaning here", *start)
+              : arena_format(p->arena, "a character (%02x) that has no meaning here", (unsigned char)*start),
+        NULL);
 }
 
 bool lexer_next(struct parser *p) {

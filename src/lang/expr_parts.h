@@ -67,8 +67,8 @@ bool lexer_next(struct parser *p);
 /* Tells an error at bytes of the text; false, for returning. */
 bool slip(struct parser *p, size_t offset, size_t length, const char *code, const char *message, const char *help);
 
-/* The token, with `found` before it, for messages. */
-const char *token_text(const struct parser *p, struct token token);
+/* What the text has there, or its beginning and `...`, in backticks: for messages. */
+const char *text_shown(struct arena *arena, const char *text, uint32_t begin, uint32_t end);
 
 /* At the token that cannot go on with an expression that could end here, with `opener` open around it
  * (length 0: none). */

@@ -37,13 +37,17 @@ static const struct source *read_stream(struct arena *arena, struct diagnostics 
     const bool regular = fstat(fileno(in), &info) == 0 && S_ISREG(info.st_mode) && info.st_size > 0;
     size_t size = regular ? (size_t)info.st_size : 0;
     char *text = size > limit ? NULL : read_all(arena, in, size, limit, &size);
-    if (text && size <= limit) return file_from_memory(arena, name, text, size);
+    if (text && size <= limit) {
+        struct source *source = arena_alloc(arena, sizeof *source);
+        *source = (struct source){arena_text(arena, name, strlen(name)), text, size};
+        return source;
+    }
     if (size > limit) diag_failure(diag, "limit-file-bytes", "%s: longer than %zu bytes (the limit `file_bytes`)", name, limit);
     else diag_failure(diag, "cannot-read", "cannot read %s: %s", name, strerror(errno));
     return NULL;
 }
 
-const struct source *file_read(struct arena *arena, struct diagnostics *diag, const char *path, size_t limit) {
+const struct source *file_read_bytes(struct arena *arena, struct diagnostics *diag, const char *path, size_t limit) {
     if (strcmp(path, "-") == 0) return read_stream(arena, diag, "<stdin>", stdin, limit);
     FILE *in = fopen(path, "rb");
     if (!in) {
@@ -53,4 +57,9 @@ const struct source *file_read(struct arena *arena, struct diagnostics *diag, co
     const struct source *source = read_stream(arena, diag, path, in, limit);
     fclose(in);
     return source;
+}
+
+const struct source *file_read(struct arena *arena, struct diagnostics *diag, const char *path, size_t limit) {
+    const struct source *source = file_read_bytes(arena, diag, path, limit);
+    return source ? file_from_memory(arena, source->name, source->text, source->size) : NULL;
 }

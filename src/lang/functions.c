@@ -29,6 +29,7 @@ double function_power(double x, double y) {
     if (x == 0.0 && y < 0.0) return NAN;
     if (x < 0.0 && y != floor(y)) return NAN;
     if (y == 2.0) return x * x;
+    if (y == 0.5) return sqrt(x);
     return elementary_pow(x, y);
 }
 
@@ -60,16 +61,22 @@ static double dot(const struct quantity *a, const struct quantity *b) {
     return sum;
 }
 
-/* Right for parts of any size. */
-static double length(const struct quantity *a) {
-    const double length2 = dot(a, a);
-    if (vec3_is_plain(length2)) return sqrt(length2);
+/* Multiplied by a power of two, which is exact, so that squares neither overflow nor vanish; gives the power that
+ * undoes it. The null vector stays as it is. */
+static int make_plain(struct quantity *a) {
+    if (vec3_is_plain(dot(a, a))) return 0;
     double big = 0.0;
+    int power;
     for (unsigned i = 0; i < a->count; i++) big = greatest(big, fabs(a->v[i]));
-    if (big == 0.0) return 0.0;
-    struct quantity unit = *a;
-    for (unsigned i = 0; i < a->count; i++) unit.v[i] /= big;
-    return big * sqrt(dot(&unit, &unit));
+    frexp(big, &power);
+    for (unsigned i = 0; i < a->count; i++) a->v[i] = ldexp(a->v[i], -power);
+    return power;
+}
+
+static double length(const struct quantity *a) {
+    struct quantity plain = *a;
+    const int power = make_plain(&plain);
+    return ldexp(sqrt(dot(&plain, &plain)), power);
 }
 
 static enum function_result call_length(const struct quantity *args, unsigned count, struct quantity *out) {
@@ -104,14 +111,12 @@ static enum function_result call_cross(const struct quantity *args, unsigned cou
 static enum function_result call_normalize(const struct quantity *args, unsigned count, struct quantity *out) {
     (void)count;
     if (args->count < 2) return FUNCTION_COUNTS;
-    double big = 0.0;
-    for (unsigned i = 0; i < args->count; i++) big = greatest(big, fabs(args->v[i]));
-    if (big == 0.0) return FUNCTION_OUTSIDE;
-    *out = *args;
-    if (!vec3_is_plain(dot(args, args)))
-        for (unsigned i = 0; i < out->count; i++) out->v[i] /= big;
-    const double long_ = sqrt(dot(out, out));
-    for (unsigned i = 0; i < out->count; i++) out->v[i] /= long_;
+    struct quantity way = *args;
+    make_plain(&way);
+    const double far = sqrt(dot(&way, &way));
+    if (far == 0.0) return FUNCTION_OUTSIDE;
+    for (unsigned i = 0; i < way.count; i++) way.v[i] /= far;
+    *out = way;
     return FUNCTION_DONE;
 }
 
@@ -213,7 +218,8 @@ static double call_part(const struct implementation *f, const double *v, unsigne
     return fold(f->folded, v, count);
 }
 
-enum function_result function_call(int function, const struct quantity *args, unsigned count, struct quantity *out) {
+enum function_result function_call(int function, const struct quantity *args, unsigned count,
+                                   struct quantity *out) {
     const struct implementation *f = &implementations[function];
     if (f->whole) return f->whole(args, count, out);
     struct quantity result = {.count = args[0].count};

@@ -4,6 +4,7 @@
 #define MONGE_LANG_GRAMMAR_H
 
 #include <stdbool.h>
+#include <stdint.h>
 
 enum grammar_type {
     GRAMMAR_NUMBER,    /* a number */
@@ -50,14 +51,17 @@ struct grammar_key {
     bool has_min, has_max, above;      /* range of each number; above: min itself is out */
     double min, max;
     const char *default_text, *unit, *doc, *example; /* for people; NULL where there is none */
+    const char *type_text, *range_text;              /* for people; "" where everything goes */
 };
 
 struct grammar_kind {
     const char *name;  /* as in KIND_name and the manual */
     const char *title; /* for messages: "a sphere" */
     const char *doc;
+    const char *example; /* NULL: none */
     const struct grammar_key *keys;
     int key_count;
+    uint64_t required, alternatives, companions; /* the keys that are so, or name others by excludes or needs: bit i is key i */
 };
 
 /* The key of that name, or -1. */

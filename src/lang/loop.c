@@ -16,7 +16,7 @@ struct loop {
 
 /* ---- What is told of a turn ---- */
 
-static const char *quantity_text(struct arena *arena, const struct quantity *q) {
+const char *quantity_text(struct arena *arena, const struct quantity *q) {
     const char *text = arena_format(arena, "%s%.6g", q->count > 1 ? "[" : "", q->v[0]);
     for (unsigned i = 1; i < q->count; i++) text = arena_format(arena, "%s, %.6g", text, q->v[i]);
     return q->count > 1 ? arena_format(arena, "%s]", text) : text;
@@ -54,7 +54,7 @@ static void run_turn(struct loop *loop, const struct node *name, struct quantity
 
 static bool may_turn(struct checker *ck, const struct node *node, double turns) {
     if (turns <= (double)ck->input->limits.steps) return true;
-    struct diagnostic *d = diag_error(ck->diag, node->span, "limit-steps", "a loop of %.15g turns: more than %zu (the limit `steps`)", turns, ck->input->limits.steps);
+    struct diagnostic *d = diag_error(ck->diag, node->span, "limit-steps", "a loop of %s turns: more than %zu (the limit `steps`)", isfinite(turns) ? arena_format(ck->arena, "%.15g", turns) : "endless", ck->input->limits.steps);
     diag_help(ck->diag, d, "a smaller loop, or `--limit steps=N`");
     return false;
 }
@@ -140,6 +140,7 @@ static void run_variables(struct loop *loop, const struct node *name) {
 }
 
 static bool names_allowed(struct checker *ck, const struct node *n) {
+    if (n->rehearsed) return true;
     bool good = true;
     for (const struct node *name = n->first; name; name = name->next->next) {
         good &= define_name_allowed(ck, "a loop variable", name);
@@ -150,6 +151,7 @@ static bool names_allowed(struct checker *ck, const struct node *n) {
                 good = false;
             }
     }
+    ((struct node *)n)->rehearsed = good; /* remembers that it was checked, and means what it meant */
     return good;
 }
 
@@ -159,7 +161,7 @@ static void rehearse(struct loop *loop, const struct node *n) {
     const bool outer = ck->rehearsing;
     loop->scope.count = 0;
     for (const struct node *name = n->first; name; name = name->next->next)
-        loop->bindings[loop->scope.count++] = (struct binding){.name = node_resolve(name)->text, .kind = BINDING_UNKNOWN};
+        if (node_resolve(name)->kind == NODE_SCALAR) loop->bindings[loop->scope.count++] = (struct binding){.name = node_resolve(name)->text, .kind = BINDING_UNKNOWN};
     ck->rehearsing = true;
     loop->turn(ck, loop->context);
     ck->rehearsing = outer;
@@ -172,12 +174,12 @@ void loop_run(struct checker *ck, const struct node *node, void (*turn)(struct c
         diag_help(ck->diag, d, "as in `for: {i: 9}`");
         return;
     }
-    if (!names_allowed(ck, n)) return;
+    const bool allowed = names_allowed(ck, n);
     struct binding *bindings = arena_array(ck->arena, n->count, sizeof *bindings);
     struct loop loop = {.frame = {.span = node->span, .text = turn_text}, .ck = ck, .scope = {ck->scope, bindings, 0},
                         .bindings = bindings, .turn = turn, .context = context, .good = true};
     ck->scope = &loop.scope;
-    run_variables(&loop, n->first);
+    if (allowed) run_variables(&loop, n->first);
     if (!(loop.good && loop.turned) && !ck->waiting && !ck->stopped) rehearse(&loop, n);
     ck->scope = loop.scope.outer;
 }
@@ -191,6 +193,8 @@ enum quantity_result loop_condition(struct checker *ck, const struct node *node,
     *out = q.v[0] != 0.0;
     if (result != QUANTITY_NONE && !(result == QUANTITY_OK && q.count != 1)) return result;
     struct diagnostic *d = diag_error(ck->diag, node->span, "not-a-condition", "`when`: expected a condition, found %s", found_text(ck, node));
-    diag_help(ck->diag, d, "as in `when: depth > 0`");
+    if (n->kind == NODE_SCALAR && scalar_help_truth(ck, d, n->text)) return QUANTITY_WRONG;
+    if (n->kind == NODE_SCALAR && scope_is_name(n->text)) scalar_help_variable(ck, d, n->text);
+    else diag_help(ck->diag, d, "as in `when: depth > 0`");
     return QUANTITY_WRONG;
 }

@@ -1,4 +1,4 @@
-/* From libyaml's events to nodes: the only place that includes yaml.h. */
+/* From libyaml's events to nodes. */
 #include <string.h>
 #include <yaml.h>
 
@@ -39,7 +39,7 @@ struct reader {
 
 struct node *node_get(const struct node *mapping, const char *key) {
     for (struct node *k = mapping->first; k; k = k->next->next)
-        if (k->kind == NODE_SCALAR && strcmp(k->text, key) == 0) return k->next;
+        if (k->kind == NODE_SCALAR && k->text[0] == key[0] && strcmp(k->text, key) == 0) return k->next;
     return NULL;
 }
 
@@ -360,6 +360,7 @@ static bool tag_allowed(struct reader *rd, const yaml_char_t *tag, const struct 
     return false;
 }
 
+/* The text stands behind its node, in one piece of memory, see read_node. */
 static bool read_scalar(struct reader *rd, struct node *node) {
     const yaml_event_t *e = &rd->event;
     const char *text = (const char *)e->data.scalar.value;
@@ -371,7 +372,7 @@ static bool read_scalar(struct reader *rd, struct node *node) {
     node->kind = NODE_SCALAR;
     node->quoted = e->data.scalar.style != YAML_PLAIN_SCALAR_STYLE;
     node->count = (uint32_t)size;
-    node->text = arena_text(rd->arena, text, size);
+    node->text = memcpy(node + 1, text, size);
     rd->height = 0;
     return true;
 }
@@ -389,7 +390,7 @@ static bool read_content(struct reader *rd, struct node *node) {
     const bool scalar = rd->event.type == YAML_SCALAR_EVENT;
     if (!scalar) return read_collection(rd, node, rd->event.type == YAML_MAPPING_START_EVENT);
     if (!read_scalar(rd, node)) return false;
-    narrow_span(node, &rd->event);
+    if (rd->event.data.scalar.anchor || rd->event.data.scalar.tag) narrow_span(node, &rd->event);
     return true;
 }
 
@@ -408,7 +409,8 @@ static bool read_anchored(struct reader *rd, struct node *node, const yaml_char_
 /* The node that the current event starts; NULL when it was reported as wrong. */
 static struct node *read_node(struct reader *rd) {
     const yaml_event_t *e = &rd->event;
-    struct node *node = arena_alloc(rd->arena, sizeof *node);
+    const size_t text = e->type == YAML_SCALAR_EVENT ? e->data.scalar.length + 1 : 0;
+    struct node *node = arena_alloc(rd->arena, sizeof *node + text);
     node->span = span_of(rd, e->start_mark, e->end_mark);
     node->passing = rd->passing;
     if (!count_node(rd, node->span)) return NULL;

@@ -72,7 +72,7 @@ static vec3 view_direction(const struct camera *camera, vec3 middle) {
 
 struct view camera_view(const struct scene *scene, const struct accel *accel, uint32_t width, uint32_t height) {
     const struct camera *camera = &scene->camera;
-    const box3 bounds = accel_bounds(accel);
+    const box3 bounds = accel_extent(accel);
     const vec3 center = box3_is_bounded(bounds) ? box3_center(bounds) : (vec3){0, 0, 0};
     const vec3 middle = camera->has_look_at ? camera->look_at : center;
     const vec3 *through = camera->has_look_at ? &middle : NULL;

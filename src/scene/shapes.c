@@ -239,6 +239,11 @@ static void report_out_of_range(struct builder *b, const struct object_value *sh
     diag_help(b->diag, d, "its sizes and transforms together must lie within 1e-100 to 1e100");
 }
 
+/* Whether the unit ball stays a ball, of a size and at a place that can be turned back. */
+static bool is_round(affine map, double *radius) {
+    return affine_is_similarity(map, radius) && *radius > 1e-100 && *radius < 1e100 && vec3_max_abs(affine_column(map, 3)) < 1e100;
+}
+
 void shape_build(struct builder *b, const struct object_value *shape, const struct object_value *bounds,
                  affine world_from_node, uint32_t material) {
     const struct quadric_form *form;
@@ -251,13 +256,16 @@ void shape_build(struct builder *b, const struct object_value *shape, const stru
     }
     if (!placement_of(b, shape, bounds, &node_from_object, &form)) return;
     const struct placement at = {shape->span, affine_compose(world_from_node, node_from_object), material};
+    double radius;
+    if (form == &ellipsoid_form && is_round(at.world_from_object, &radius)) {
+        add_sphere(b, &at, radius);
+        return;
+    }
     if (!affine_invert(at.world_from_object, &object_from_world)) {
         report_out_of_range(b, shape);
         return;
     }
-    double radius;
-    if (form == &ellipsoid_form && affine_is_similarity(at.world_from_object, &radius)) add_sphere(b, &at, radius);
-    else if (form) add_quadric(b, &at, object_from_world, form);
+    if (form) add_quadric(b, &at, object_from_world, form);
     else add_flat(b, &at, object_from_world,
                   shape->kind == &grammar_kinds[KIND_PLANE]  ? FLAT_PLANE
                   : shape->kind == &grammar_kinds[KIND_DISC] ? FLAT_DISC

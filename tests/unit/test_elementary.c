@@ -72,6 +72,57 @@ static void power(void **state) {
     }
 }
 
+static void exponentials_and_logarithms(void **state) {
+    (void)state;
+    struct random r = random_begin();
+    for (int i = 0; i < RANDOM_ANGLES; i++) {
+        const double y = random_between(&r, -700, 700), x = random_between(&r, 0, i & 1 ? 2 : 1e6);
+        assert_ulp(elementary_exp(y), expl(y), 1, "exp", y);
+        assert_ulp(elementary_log(x), logl(x), 1, "log", x);
+        assert_ulp(elementary_log2(x), log2l(x), 1, "log2", x);
+        assert_ulp(elementary_log10(x), log10l(x), 1, "log10", x);
+    }
+}
+
+static void whole_powers_and_their_logarithms_are_exact(void **state) {
+    (void)state;
+    for (int base = 2; base < 1000; base++) {
+        double want = 1;
+        for (int exponent = 0; want <= 0x1p53; exponent++, want *= base) assert_true(elementary_pow(base, exponent) == want);
+    }
+    for (int i = -1000; i <= 1000; i++) assert_true(elementary_log2(ldexp(1, i)) == i);
+    double ten = 1;
+    for (int i = 0; i <= 22; i++, ten *= 10) assert_true(elementary_log10(ten) == i);
+}
+
+static void inverses(void **state) {
+    (void)state;
+    const long double degrees = 180 / 3.14159265358979323846264338327950288L;
+    struct random r = random_begin();
+    for (int i = 0; i < RANDOM_ANGLES; i++) {
+        const double x = random_between(&r, -1, 1), y = random_between(&r, -1, 1), scale = i & 1 ? 1 : 1e-6;
+        assert_ulp(elementary_asin_deg(x * scale), asinl(x * scale) * degrees, 2.5, "asin", x);
+        assert_ulp(elementary_acos_deg(x), acosl(x) * degrees, 2.5, "acos", x);
+        assert_ulp(elementary_atan_deg(x / scale), atanl(x / scale) * degrees, 2.5, "atan", x);
+        assert_ulp(elementary_atan2_deg(y, x * scale), atan2l(y, x * scale) * degrees, 2.5, "atan2", x);
+    }
+}
+
+static void angles_of_whole_degrees(void **state) {
+    (void)state;
+    static const double sines[][2] = {{-1, -90}, {-0.5, -30}, {0, 0}, {0.5, 30}, {1, 90}};
+    for (size_t i = 0; i < COUNT(sines); i++) {
+        assert_true(elementary_asin_deg(sines[i][0]) == sines[i][1]);
+        assert_true(elementary_acos_deg(sines[i][0]) == 90 - sines[i][1]);
+    }
+    for (int i = -3; i <= 4; i++) {
+        static const double at[] = {0, 7, 7, 7, 0, -7, -7, -7}; /* the sine of i eighths of a turn, but for its length */
+        assert_true(elementary_atan2_deg(at[i & 7], at[(i + 2) & 7]) == 45 * i);
+    }
+    assert_true(elementary_atan2_deg(-0.0, -1) == 180 && elementary_atan2_deg(-0.0, 0) == 0 && elementary_atan2_deg(0, -0.0) == 0);
+    assert_true(elementary_atan_deg(1) == 45 && elementary_atan_deg(-1) == -45);
+}
+
 static struct exact {
     const char *name;
     double angle_deg, sine, cosine;
@@ -102,7 +153,7 @@ static void symmetries_hold_exactly(void **state) {
 
 static void tangents_of_45(void **state) {
     (void)state;
-    assert_near(elementary_tan_deg(45), 1, 3e-16, "tan 45");
+    for (int i = -7; i <= 7; i += 2) assert_true(elementary_tan_deg(45 * i) == ((i & 3) == 1 ? 1 : -1));
     assert_true(elementary_tan_deg(0) == 0);
     assert_true(elementary_tan_deg(180) == 0);
 }
@@ -116,12 +167,25 @@ static void powers_at_the_ends(void **state) {
     assert_true(elementary_pow(2, 10) == 1024);
 }
 
+static void arctangent(void **state) {
+    (void)state;
+    const long double pi = 3.14159265358979323846264338327950288L;
+    struct random r = random_begin();
+    for (int i = 0; i < RANDOM_ANGLES; i++) {
+        const double x = random_between(&r, -1, 1) * pow(10, random_between(&r, -8, 8));
+        assert_ulp(elementary_atan_deg(x), atanl(x) * 180.0L / pi, 3.0, "atan", x);
+    }
+    assert_true(elementary_atan_deg(0) == 0);
+}
+
 int main(void) {
     struct CMUnitTest tests[COUNT(exacts)];
     for (size_t i = 0; i < COUNT(exacts); i++) tests[i] = (struct CMUnitTest){exacts[i].name, check_exact, NULL, NULL, &exacts[i]};
     const struct CMUnitTest others[] = {
-        cmocka_unit_test(sine_and_cosine), cmocka_unit_test(tangent),        cmocka_unit_test(power),
+        cmocka_unit_test(sine_and_cosine), cmocka_unit_test(tangent), cmocka_unit_test(arctangent),        cmocka_unit_test(power),
         cmocka_unit_test(symmetries_hold_exactly), cmocka_unit_test(tangents_of_45), cmocka_unit_test(powers_at_the_ends),
+        cmocka_unit_test(exponentials_and_logarithms), cmocka_unit_test(whole_powers_and_their_logarithms_are_exact),
+        cmocka_unit_test(inverses), cmocka_unit_test(angles_of_whole_degrees),
     };
     return cmocka_run_group_tests_name("exact", tests, NULL, NULL) + cmocka_run_group_tests_name("elementary", others, NULL, NULL);
 }

@@ -1,0 +1,127 @@
+#!/usr/bin/env bash
+# The codes of diagnostics: src/ and grammar/diagnostics.yaml have the same ones, each is seen in a test, and the
+# examples give what they say: tests/codes.sh BUILD/monge
+monge=$(realpath "$1") || exit 2
+tool=$(dirname "$monge")/tools/diagnostics
+cd "$(dirname "$0")/.." || exit 2
+work=$(mktemp -d) || exit 2
+trap 'rm -rf "$work"' EXIT
+passed=0 failed=0
+
+# Explained already, not used in src/ yet.
+pending='
+bad-expression bad-range camera-inside division-by-zero expression-too-deep extends-cycle
+include-cycle keyframes-without-animation limit-recursion limit-steps no-effect not-a-condition
+not-a-quantity not-finite nothing-in-view outside-domain unknown-argument unknown-function
+unknown-parameter unknown-template unknown-variable unused-material unused-parameter wrong-arguments
+'
+
+# Not in tests/errors/: what no scene gives.
+elsewhere='
+cannot-read         no scene: tests/formats/expected.json
+cannot-write        no scene: tests/formats.sh
+limit-file-bytes    a file of over 1 GiB: tests/unit/test_diagnostics.c
+limit-memory        a scene of over 8 GiB: tests/unit/test_diagnostics.c
+limit-objects       more primitives than there is memory for
+out-of-memory       a system without memory
+'
+
+check() { # check NAME COMMAND...: a test that passes when the command succeeds.
+    if "${@:2}" >"$work/said" 2>&1; then
+        passed=$((passed + 1))
+    else
+        failed=$((failed + 1))
+        echo "FAILED: $1"
+        sed 's/^/    /' "$work/said"
+    fi
+}
+same() { diff -u "$1" "$2"; }
+words() { tr -s ' ' '\n' <<<"$1" | grep . | sort -u; }
+
+# ---- The same codes in src/ and in the definition ----
+
+# The first text of a call is its code; and every text that looks like one, for those that are passed on.
+# `beyond` is what only_counted gives to a list that is full: it is never kept.
+codes_of_src() {
+    grep -hoE 'diag_(error|warning|failure)\([^"]*"[a-z]+(-[a-z]+)*"' src/{base,lang,scene}/*.c src/monge.c |
+        grep -oE '"[a-z-]+"$' | tr -d '"'
+    grep -hoE '"[a-z]+(-[a-z]+)+"' src/{lang,scene}/*.c src/monge.c | tr -d '"'
+}
+codes_of_src | grep -vx beyond | sort -u >"$work/src"
+
+"$tool" examples grammar/diagnostics.yaml "$work/example" || exit 1
+cut -f1 "$work/example" >"$work/all"
+words "$pending" >"$work/pending"
+comm -23 "$work/all" "$work/pending" >"$work/defined"
+check "src/ (-) and grammar/diagnostics.yaml (+) have the same codes" same "$work/src" "$work/defined"
+check "what is pending is explained and not in src/ yet" \
+    [ -z "$(comm -23 "$work/pending" "$work/all"; comm -12 "$work/pending" "$work/src")" ]
+check "there are codes" [ "$(wc -l <"$work/defined")" -gt 50 ]
+
+# ---- Each is seen ----
+
+seen() { cat tests/errors/*.txt | grep -oE '(error|warning)\[[a-z-]+\]' | sed 's/.*\[\(.*\)\]/\1/' | sort -u; }
+seen >"$work/seen"
+awk 'NF { print $1 }' <<<"$elsewhere" | sort >"$work/elsewhere"
+comm -23 "$work/defined" "$work/elsewhere" >"$work/scenes"
+check "tests/errors/ (-) has each of the codes (+)" same "$work/seen" "$work/scenes"
+
+while read -r code why; do
+    file=$(grep -o 'tests/.*' <<<"$why") && check "$code is in $file" grep -qF -e "\"$code\"" "$file"
+done <<<"$elsewhere"
+
+# ---- The severities are those of the code ----
+
+severities() { # of every code in the expected texts
+    cat tests/errors/*.txt | grep -oE ' (error|warning)\[[a-z-]+\]' | tr -d ' ]' | tr '[' ' ' | sort -u |
+        awk '{ all[$2] = all[$2] ? all[$2] " or " $1 : $1 } END { for (code in all) print code "\t" all[code] }' | sort
+}
+severities >"$work/severities"
+awk -F'\t' 'NR == FNR { seen[$1] = 1; next } $1 in seen { print $1 "\t" $3 }' "$work/seen" "$work/example" | sort >"$work/stated"
+check "severities in tests/errors/ (-) and in grammar/diagnostics.yaml (+)" same "$work/severities" "$work/stated"
+
+# ---- The examples ----
+
+codes_in() { grep -oE '(error|warning)\[[a-z-]+\]' "$1" | sed 's/.*\[\(.*\)\]/\1/' | sort -u; }
+gives() { [ "$(codes_in "$1")" = "$2" ] || { echo "it gives: $(codes_in "$1")"; cat "$1"; false; }; }
+silent() { [ ! -s "$1" ] || { cat "$1"; false; }; }
+
+monge() { "$monge" "$@"; }
+export monge
+export -f monge
+mkdir "$work/run"
+printf 'scene: [{sphere: {}}]\n' >"$work/run/king.yaml"
+cd "$work/run" || exit 2
+while IFS=$'\t' read -r code kind severity; do
+    grep -qx -e "$code" "$work/pending" && continue
+    wrong=$work/example.$code.wrong right=$work/example.$code.right
+    case $kind in
+    scene)
+        "$monge" check "$wrong" >/dev/null 2>"$work/wrong"
+        "$monge" check "$right" >/dev/null 2>"$work/right"
+        ;;
+    commands)
+        bash "$wrong" >/dev/null 2>"$work/wrong"
+        bash "$right" >/dev/null 2>"$work/right"
+        sed -i '/^wrote /d' "$work/right"
+        ;;
+    sketch)
+        case $code in limit-* | out-of-memory) continue ;; esac
+        check "$code: $severity has an example that can be tried" false
+        continue
+        ;;
+    esac
+    check "$code: the wrong example gives it alone" gives "$work/wrong" "$code"
+    check "$code: the right example is right" silent "$work/right"
+done <"$work/example"
+
+# ---- monge explain ----
+
+while read -r code; do
+    check "monge explain $code" "$monge" explain "$code"
+done <"$work/all"
+"$monge" explain | awk '{ print $1 }' >"$work/listed"
+check "monge explain lists all" same "$work/all" "$work/listed"
+
+echo "codes: $passed passed, $failed failed"
+[ "$failed" -eq 0 ]

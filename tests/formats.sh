@@ -1,0 +1,155 @@
+#!/usr/bin/env bash
+# Diagnostics for programs: tests/formats.sh BUILD/monge [--update]. The documents about two scenes and two files that are
+# missing are those of tests/formats/, byte for byte; with python3, their structure is tested on more of them.
+monge=$(realpath "$1") || exit 2
+cd "$(dirname "$0")/formats" || exit 2
+work=$(mktemp -d) || exit 2
+trap 'rm -rf "$work"' EXIT
+export LC_ALL=C
+passed=0 failed=0
+
+check() { # check NAME COMMAND...
+    if "${@:2}" >"$work/said" 2>&1; then
+        passed=$((passed + 1))
+    else
+        failed=$((failed + 1))
+        echo "FAILED: $1"
+        head -n 40 "$work/said" | sed 's/^/    /'
+    fi
+}
+version() { sed 's/^\(          "version": \)"[0-9.]*"/\1"x.y.z"/' "$1"; } # of monge, not of SARIF
+
+# ---- The exact documents ----
+
+for format in json sarif; do
+    "$monge" check --format $format wrong.yaml ok.yaml absent.yaml $'100% "gr\xc3\xb6\xc3\x9fe"\xff.yaml' >"$work/out" 2>"$work/err"
+    check "$format: exit 2 where a file is missing" [ $? -eq 2 ]
+    version "$work/out" >"$work/expected.$format"
+    [ "$2" = --update ] && cp "$work/expected.$format" "expected.$format"
+    check "$format: the document" diff -u "expected.$format" "$work/expected.$format"
+    check "$format: nothing on stderr" [ ! -s "$work/err" ]
+done
+
+# ---- Where documents go ----
+
+"$monge" check --format json wrong.yaml >"$work/json" 2>/dev/null
+check "check: exit 1 where a scene is wrong" [ $? -eq 1 ]
+"$monge" check --format json ok.yaml >"$work/empty"
+check "check: exit 0 where all is well" [ $? -eq 0 ]
+check "an empty list where all is well" [ "$(cat "$work/empty")" = '[]' ]
+"$monge" check --format text wrong.yaml >"$work/out" 2>"$work/text"
+check "text is what there is without --format" sh -c "'$monge' check wrong.yaml 2>&1 >/dev/null | cmp - '$work/text'"
+"$monge" render --format json --size 8x8 wrong.yaml ok.yaml -o "$work/" >"$work/out" 2>"$work/err"
+check "render: exit 1 where a scene is wrong" [ $? -eq 1 ]
+check "render: the others are rendered" [ -s "$work/ok.png" ]
+check "render: stderr has the document alone" cmp "$work/json" "$work/err"
+check "render: nothing on stdout" [ ! -s "$work/out" ]
+"$monge" render --format sarif --size 8x8 ok.yaml -o - >/dev/full 2>"$work/full.sarif"
+check "render: exit 2 where a picture cannot be written" [ $? -eq 2 ]
+check "render: a failure is a notification" grep -q '"id": "cannot-write"' "$work/full.sarif"
+
+# ---- Structure ----
+
+{ echo 'scene:'; for i in $(seq 60); do echo "  - sphere: {x$i: 1}"; done; } >"$work/many.yaml"
+"$monge" check --format json "$work/many.yaml" "$work/many.yaml" wrong.yaml >"$work/many.json"
+"$monge" check --format sarif "$work/many.yaml" >"$work/many.sarif"
+"$monge" check --format json ../errors/*.yaml >"$work/all.json"
+"$monge" check --format sarif ../errors/*.yaml >"$work/all.sarif"
+"$monge" check --format sarif "$PWD/wrong.yaml" >"$work/absolute.sarif"
+printf 'scene: []' | "$monge" check --format sarif - >"$work/stdin.sarif"
+printf 'scene:\n  - sphere: {raduis: 2}' | "$monge" check --format json - >"$work/stdin.json"
+
+structure() {
+    python3 - "$work" <<'PYTHON'
+import json, os, re, sys
+
+def read(name):
+    with open(os.path.join(sys.argv[1], name), encoding="utf-8") as file:
+        return json.load(file)
+
+MEMBERS = ["file", "line", "column", "endLine", "endColumn", "severity", "code", "message", "help", "note", "related"]
+def check_json(document):
+    assert isinstance(document, list)
+    for d in document:
+        assert list(d) == MEMBERS, d
+        assert d["severity"] in ("error", "warning", "failure", "note")
+        assert isinstance(d["message"], str) and d["message"]
+        if d["file"] is not None:
+            assert d["line"] >= 1 and d["column"] >= 1 and d["endLine"] == d["line"] and d["endColumn"] >= d["column"]
+        else:
+            assert [d[m] for m in MEMBERS[:5]] == [None] * 5
+        for r in d["related"]:
+            assert list(r) == ["file", "line", "column", "message"]
+
+def check_message(message):
+    assert set(message) == {"text"} and message["text"]
+    assert not re.search("[{}]", message["text"].replace("{{", "").replace("}}", "")), message
+
+def check_location(location):
+    physical = location["physicalLocation"]
+    uri = physical["artifactLocation"]["uri"]
+    assert re.fullmatch(r"(file:///)?([A-Za-z0-9._~/-]|%[0-9A-F]{2})+", uri), uri
+    region = physical["region"]
+    assert set(region) == {"startLine", "startColumn", "endLine", "endColumn"}
+    assert 1 <= region["startLine"] == region["endLine"] and 1 <= region["startColumn"] <= region["endColumn"]
+
+def check_sarif(document):
+    assert set(document) == {"$schema", "version", "runs"} and document["version"] == "2.1.0"
+    run, = document["runs"]
+    assert set(run) == {"tool", "columnKind", "invocations", "results"}
+    assert run["columnKind"] == "unicodeCodePoints"
+    driver = run["tool"]["driver"]
+    assert driver["name"] == "monge" and re.fullmatch(r"\d+\.\d+\.\d+", driver["version"])
+    for rule in driver["rules"] + driver["notifications"]:
+        assert set(rule) == {"id", "shortDescription", "fullDescription"}
+        check_message(rule["shortDescription"])
+        check_message(rule["fullDescription"])
+    ids = [rule["id"] for rule in driver["rules"]]
+    assert ids == sorted(set(ids)) and set(ids) == {r["ruleId"] for r in run["results"]}
+    for result in run["results"]:
+        assert result["level"] in ("error", "warning")
+        check_message(result["message"])
+        for location in result["locations"] + result.get("relatedLocations", []):
+            check_location(location)
+        for location in result.get("relatedLocations", []):
+            check_message(location["message"])
+    invocation, = run["invocations"]
+    notifications = invocation["toolExecutionNotifications"]
+    failed = [n for n in notifications if n["level"] == "error"]
+    assert {n["descriptor"]["id"] for n in failed} == {rule["id"] for rule in driver["notifications"]}
+    assert invocation["executionSuccessful"] == (not failed)
+    for n in notifications:
+        check_message(n["message"])
+
+for name in ("json", "empty", "many.json", "all.json", "stdin.json", "expected.json"):
+    check_json(read(name))
+for name in ("many.sarif", "all.sarif", "absolute.sarif", "stdin.sarif", "full.sarif"):
+    check_sarif(read(name))
+
+many = read("many.json")
+assert len(many) == 50 + 50 + len(read("json")) + 1, len(many) # of each scene as many as of one alone
+assert many[-1]["severity"] == "note" and many[-1]["message"] == "and 20 more"
+assert read("many.sarif")["runs"][0]["invocations"][0]["toolExecutionNotifications"][0]["message"]["text"] == "and 10 more"
+
+everything = read("all.json")
+results = read("all.sarif")["runs"][0]["results"]
+assert len(results) == sum(d["severity"] in ("error", "warning") for d in everything) > 300
+for d, result in zip((d for d in everything if d["file"]), results):
+    assert d["code"] == result["ruleId"]
+    lines = [line for line in (d["message"], d["help"], d["note"]) if line]
+    assert result["message"]["text"].replace("{{", "{").replace("}}", "}") == "\n".join(lines)
+
+# Columns count code points.
+with open("wrong.yaml", encoding="utf-8") as file:
+    lines = file.read().split("\n")
+key = next(d for d in read("json") if d["code"] == "unknown-key")
+assert lines[key["line"] - 1][key["column"] - 1:key["endColumn"] - 1] == "raduis"
+uri = read("absolute.sarif")["runs"][0]["results"][0]["locations"][0]["physicalLocation"]["artifactLocation"]["uri"]
+assert uri.startswith("file:///")
+assert read("stdin.json")[0]["file"] == "<stdin>"
+PYTHON
+}
+if command -v python3 >/dev/null; then check "structure" structure; fi
+
+echo "formats: $passed passed, $failed failed"
+[ "$failed" -eq 0 ]
