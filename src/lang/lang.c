@@ -142,6 +142,7 @@ void lang_read_frame(struct lang_result *result, struct diagnostics *diag, unsig
     reading->input.frame = frame;
     ck->diag = diag;
     ck->steps = 0;
-    result->file = read_file(ck, &ck->memory->scratch, reading->scene);
-    if (result->file) result->file->failed = diag->errors != errors;
+    struct object_value *file = read_file(ck, &ck->memory->scratch, reading->scene);
+    if (file) file->failed = diag->errors != errors;
+    result->file = file;
 }
