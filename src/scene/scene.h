@@ -77,6 +77,14 @@ struct scene {
 struct builder *scene_begin(struct arena *arena, struct diagnostics *diag, struct scene *scene, struct lang_sink *sink);
 bool scene_end(struct builder *builder, const struct lang_result *description);
 
+/* Another frame of a scene whose objects and materials stay: makes its settings, camera and lights anew, the
+ * lights in `arena`. False: reported, and *scene is as it was. */
+bool scene_view(struct arena *arena, struct diagnostics *diag, const struct object_value *file, struct scene *scene);
+
+/* Whether the hierarchies of one serve the other: the same primitives, bit by bit, and materials of which
+ * the same are clear. */
+bool scene_same_shapes(const struct scene *a, const struct scene *b);
+
 /* Adds the shapes of a set to the hash, and their materials by number. */
 void primitives_hash(const struct primitives *p, struct hash *hash);
 
