@@ -17,6 +17,7 @@
 #include "lang/lang.h"
 #include "lang/stories.h"
 #include "render/examine.h"
+#include "render/info.h"
 #include "render/render.h"
 #include "scene/scene.h"
 
@@ -29,6 +30,8 @@ struct monge_scene {
     struct scene scene;
     struct accel *accel; /* NULL: not prepared */
     unsigned frames;     /* of its animation; 0: none */
+    struct outline *outline; /* NULL: not wanted */
+    size_t built_bytes;      /* of the scene, without the hierarchy */
 };
 
 const char *monge_version(void) { return MONGE_VERSION; }
@@ -129,6 +132,7 @@ static bool load_scene(struct load *load) {
     if (!source) return false;
     struct lang_sink sink;
     struct builder *builder = scene_begin(&scene->arena, load->diag, &scene->scene, &sink);
+    if (load->options.outline) scene->outline = outline_begin(&scene->arena, load->diag, &sink);
     const struct lang_input input = {
         .source = source,
         .path = load->name,
@@ -208,6 +212,7 @@ static struct accel *scene_accel(struct monge_scene *scene) {
 bool monge_scene_prepare(struct monge_scene *scene) {
     jmp_buf full;
     if (scene->accel) return true;
+    scene->built_bytes = scene->arena.total;
     const struct arena_mark before = arena_mark(&scene->arena);
     scene->arena.on_full = &full;
     if (setjmp(full) == 0) scene->accel = scene_accel(scene);
@@ -222,6 +227,22 @@ void monge_scene_examine(struct monge_scene *scene, struct monge_diagnostics *di
     if (!monge_scene_prepare(scene)) return;
     if (setjmp(full) == 0) examine_scene(&scene->scene, scene->accel, scene->frames > 0, &scratch, &diag->list);
     arena_free(&scratch);
+}
+
+bool monge_scene_info(struct monge_scene *scene, enum monge_format format, FILE *out) {
+    jmp_buf full;
+    struct arena scratch = {.on_full = &full};
+    if (!monge_scene_prepare(scene)) return false;
+    if (setjmp(full)) {
+        arena_free(&scratch);
+        return false;
+    }
+    struct info info = info_count(&scene->scene, &scratch);
+    info.scene_bytes = scene->built_bytes;
+    info.accel_bytes = scene->arena.total - scene->built_bytes;
+    (format == MONGE_FORMAT_TEXT ? info_print : info_write_json)(&info, &scene->scene, scene->accel, scene->outline, out);
+    arena_free(&scratch);
+    return true;
 }
 
 /* ---- Importing ---- */

@@ -14,6 +14,7 @@ enum command_id {
     COMMAND_NONE, /* monge itself */
     COMMAND_RENDER,
     COMMAND_CHECK,
+    COMMAND_INFO,
     COMMAND_FMT,
     COMMAND_EXPLAIN,
     COMMAND_IMPORT,
@@ -38,6 +39,7 @@ enum option_id {
     OPTION_STATS,
     OPTION_PROGRESS,
     OPTION_FORMAT,
+    OPTION_JSON,
     OPTION_CHECK_ONLY,
     OPTION_QUIET,
     OPTION_MAN,
