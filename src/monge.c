@@ -18,6 +18,7 @@
 #include "lang/lang.h"
 #include "lang/stories.h"
 #include "render/examine.h"
+#include "render/info.h"
 #include "render/render.h"
 #include "scene/scene.h"
 
@@ -37,6 +38,8 @@ struct monge_scene {
     size_t memory_bytes;       /* for that */
     struct lang_memory memory; /* of the reading, where only the file itself depends on the frame */
     struct lang_result result; /* in `memory` */
+    struct outline *outline; /* NULL: not wanted */
+    size_t built_bytes;      /* of the scene, without the hierarchy */
 };
 
 const char *monge_version(void) { return MONGE_VERSION; }
@@ -153,12 +156,13 @@ static bool read_input(struct load *load) {
     return true;
 }
 
-/* Reads all of the input into a scene of its own; *result lives in `memory`. */
-static bool read_all(struct lang_input input, struct diagnostics *diag, struct lang_memory *memory, struct arena *arena, struct scene *scene,
+/* Reads all of the input into a scene of its own; *result lives in `memory`. outline: NULL where none is wanted. */
+static bool read_all(struct lang_input input, struct outline **outline, struct diagnostics *diag, struct lang_memory *memory, struct arena *arena, struct scene *scene,
                      struct lang_result *result) {
     const unsigned errors = diag->errors;
     struct lang_sink sink;
     struct builder *builder = scene_begin(arena, diag, scene, &sink);
+    if (outline) *outline = outline_begin(arena, diag, &sink);
     input.sink = &sink;
     *result = lang_read(memory, diag, &input);
     return result->file && scene_end(builder, result) && diag->errors == errors;
@@ -166,7 +170,7 @@ static bool read_all(struct lang_input input, struct diagnostics *diag, struct l
 
 static bool load_scene(struct load *load) {
     struct monge_scene *scene = load->scene;
-    return read_input(load) && read_all(scene->input, load->diag, &scene->memory, &scene->body, &scene->scene, &scene->result);
+    return read_input(load) && read_all(scene->input, load->options.outline ? &scene->outline : NULL, load->diag, &scene->memory, &scene->body, &scene->scene, &scene->result);
 }
 
 static void report_full(struct diagnostics *diag, const char *name, size_t memory_bytes) {
@@ -263,7 +267,7 @@ static bool make_all(struct frame_load *next) {
     struct lang_input input = next->scene->input;
     struct lang_result result;
     input.frame = next->frame;
-    return read_all(input, next->diag, &next->memory, &next->arena, &next->made, &result);
+    return read_all(input, NULL, next->diag, &next->memory, &next->arena, &next->made, &result);
 }
 
 static bool make_frame(struct frame_load *next) {
@@ -333,6 +337,7 @@ static struct accel *scene_accel(struct monge_scene *scene) {
 bool monge_scene_prepare(struct monge_scene *scene) {
     jmp_buf full;
     if (scene->accel) return true;
+    scene->built_bytes = scene->body.total;
     const struct arena_mark before = arena_mark(&scene->body);
     scene->body.on_full = &full;
     if (setjmp(full) == 0) scene->accel = scene_accel(scene);
@@ -347,6 +352,22 @@ void monge_scene_examine(struct monge_scene *scene, struct monge_diagnostics *di
     if (!monge_scene_prepare(scene)) return;
     if (setjmp(full) == 0) examine_scene(&scene->scene, scene->accel, scene->result.frames > 0, &scratch, &diag->list);
     arena_free(&scratch);
+}
+
+bool monge_scene_info(struct monge_scene *scene, enum monge_format format, FILE *out) {
+    jmp_buf full;
+    struct arena scratch = {.on_full = &full};
+    if (!monge_scene_prepare(scene)) return false;
+    if (setjmp(full)) {
+        arena_free(&scratch);
+        return false;
+    }
+    struct info info = info_count(&scene->scene, &scratch);
+    info.scene_bytes = scene->built_bytes;
+    info.accel_bytes = scene->body.total - scene->built_bytes;
+    (format == MONGE_FORMAT_TEXT ? info_print : info_write_json)(&info, &scene->scene, scene->accel, scene->outline, out);
+    arena_free(&scratch);
+    return true;
 }
 
 /* ---- Importing ---- */

@@ -101,6 +101,7 @@ struct monge_load_options {
     size_t define_count;
     unsigned frame; /* of an animation, from 1; 0: the first */
     bool untrusted; /* the scene reads files in its own folder alone */
+    bool outline;   /* for monge_scene_info to have the tree of the scene: takes more time */
 };
 
 struct monge_scene;
@@ -137,6 +138,11 @@ bool monge_scene_prepare(struct monge_scene *scene);
 /* Looks for what would render wrong, without rendering: nothing in view, the camera inside of a solid, objects and
  * lights without effect. Each is a warning in diag. Prepares the scene; where there is no memory for that, nothing. */
 void monge_scene_examine(struct monge_scene *scene, struct monge_diagnostics *diag);
+
+/* Tells what the scene has become: counts, bounds, the camera as it is framed, materials, what each template
+ * costs, and the tree where the load has kept its outline. As text, or as one JSON object (README.md has its members).
+ * Prepares the scene; false, with nothing told, when there is no memory for that. */
+bool monge_scene_info(struct monge_scene *scene, enum monge_format format, FILE *out);
 
 /* ---- Scenes of others ---- */
 

@@ -8,6 +8,7 @@
 #include "cli/fmt.h"
 #include "cli/help.h"
 #include "cli/import.h"
+#include "cli/info.h"
 #include "cli/options.h"
 #include "cli/render.h"
 #include "cli/say.h"
@@ -18,6 +19,7 @@
 #define IN_NONE    (1u << COMMAND_NONE)
 #define IN_RENDER  (1u << COMMAND_RENDER)
 #define IN_CHECK   (1u << COMMAND_CHECK)
+#define IN_INFO    (1u << COMMAND_INFO)
 #define IN_FMT     (1u << COMMAND_FMT)
 #define IN_EXPLAIN (1u << COMMAND_EXPLAIN)
 #define IN_IMPORT  (1u << COMMAND_IMPORT)
@@ -68,6 +70,7 @@ const struct option_row OPTION_TABLE[OPTIONS] = {
                       "what a scene may take, see above; with k, M or G; repeatable"},
     [OPTION_UNTRUSTED] = {"untrusted", 0, VALUE_NONE, IN_RENDER | IN_CHECK, NULL, 0, 0,
                           "the scene may include files of its own folder alone"},
+    [OPTION_JSON] = {"json", 0, VALUE_NONE, IN_INFO, NULL, 0, 0, "as JSON, one object a scene"},
     [OPTION_CHECK_ONLY] = {"check", 0, VALUE_NONE, IN_FMT, NULL, 0, 0,
                            "write nothing; list what is not formatted, exit status 1 if any"},
     [OPTION_QUIET] = {"quiet", 'q', VALUE_NONE, IN_RENDER | IN_CHECK | IN_FMT, NULL, 0, 0,
@@ -163,6 +166,24 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                           "for what shows SARIF beside the code"}},
             .needs_operand = true,
             .run = check_command,
+        },
+    [COMMAND_INFO] =
+        {
+            .name = "info",
+            .operands = "SCENE...",
+            .doc = "tell what scenes consist of, without rendering them",
+            .text = {"Reads each scene and prints what has become of it: the picture's size, the camera as it is "
+                     "framed, the lights, the bounds, how many primitives of each kind there are, the materials "
+                     "with their uses, the memory that it takes and what each template costs.",
+                     "Then the scene as a tree, each line with its place in the file. What a loop or a template "
+                     "places many times is one line with a count; of more than 20 members the rest is counted.",
+                     "Primitives are counted as they are kept, those of a template that is placed as a whole once; "
+                     "`placed` is their number with all of that carried out.",
+                     "With --json: one object for each scene, with the same. The scene - is standard input."},
+            .examples = {{"monge info king.yaml", "what king.yaml consists of"},
+                         {"monge info --json king.yaml | jq .camera", "the camera that it is framed by"}},
+            .needs_operand = true,
+            .run = info_command,
         },
     [COMMAND_EXPLAIN] =
         {

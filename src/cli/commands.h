@@ -14,6 +14,7 @@ enum command_id {
     COMMAND_NONE, /* monge itself */
     COMMAND_RENDER,
     COMMAND_CHECK,
+    COMMAND_INFO,
     COMMAND_FMT,
     COMMAND_EXPLAIN,
     COMMAND_IMPORT,
@@ -43,6 +44,7 @@ enum option_id {
     OPTION_FORMAT,
     OPTION_LIMIT,
     OPTION_UNTRUSTED,
+    OPTION_JSON,
     OPTION_CHECK_ONLY,
     OPTION_QUIET,
     OPTION_MAN,

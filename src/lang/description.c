@@ -30,6 +30,15 @@ const char *object_reference(const struct object_value *object, int key, uint32_
     return definition ? definition->name : NULL;
 }
 
+const char *object_names(struct arena *arena, const struct object_value *object, int key) {
+    const struct node *node = object->fields[key] ? node_resolve(object->fields[key]->node) : NULL;
+    const char *text = "";
+    if (!node || node->kind != NODE_MAPPING) return NULL;
+    for (const struct node *name = node->first; name; name = name->next->next)
+        text = arena_format(arena, "%s%s%s", text, *text ? ", " : "", node_resolve(name)->text);
+    return text;
+}
+
 const affine *object_matrix(const struct object_value *object, int key) {
     return object->fields[key] ? object->fields[key]->matrix : NULL;
 }

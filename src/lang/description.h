@@ -57,6 +57,8 @@ vec3 object_vec3(const struct object_value *object, int key);
 const char *object_text(const struct object_value *object, int key);            /* NULL: not given */
 /* The name of a definition that a key of type name gives, and its number among its kind; NULL: not given. */
 const char *object_reference(const struct object_value *object, int key, uint32_t *number);
+/* The names in a value of type ranges or values, as "i, j", in the arena; NULL: not given. */
+const char *object_names(struct arena *arena, const struct object_value *object, int key);
 const affine *object_matrix(const struct object_value *object, int key);        /* NULL: not given */
 struct object_value *object_object(const struct object_value *object, int key); /* NULL: not given, or not a mapping */
 struct object_list object_list(const struct object_value *object, int key);

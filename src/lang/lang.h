@@ -37,6 +37,10 @@ struct lang_sink {
     void (*take_back)(void *context);
 };
 
+/* What a template in use was given, as "depth = 3", in the arena: of the frame that is under way while the sink
+ * opens it. */
+const char *lang_use_arguments(struct arena *arena, const struct diag_frame *frame);
+
 struct lang_define {
     const char *name, *value; /* of `-D name=value` */
 };

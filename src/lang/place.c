@@ -72,6 +72,10 @@ static const char *use_text(struct arena *arena, const struct diag_frame *frame)
     return *with ? arena_format(arena, "`%s` is used here, with %s", use->name, with) : arena_format(arena, "`%s` is used here", use->name);
 }
 
+const char *lang_use_arguments(struct arena *arena, const struct diag_frame *frame) {
+    return frame && frame->text == use_text ? loop_bindings_text(arena, ((const struct use *)frame)->arguments) : "";
+}
+
 /* The value of a parameter where it is declared: the mapping's `default`, or the value itself. */
 const struct node *place_default(const struct node *declared) {
     const struct node *n = node_resolve(declared);

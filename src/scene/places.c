@@ -49,3 +49,5 @@ void places_keep(struct builder *b) {
 }
 
 const char *scene_kind_title(uint32_t kind) { return grammar_kinds[kind].title; }
+
+const char *scene_kind_name(uint32_t kind) { return strchr(grammar_kinds[kind].title, ' ') + 1; }

@@ -97,6 +97,9 @@ void shape_hash(const struct primitives *p, primitive_ref ref, struct hash *hash
 /* "a sphere": what a kind of an origin is called. */
 const char *scene_kind_title(uint32_t kind);
 
+/* The same as a word of the language: "sphere". */
+const char *scene_kind_name(uint32_t kind);
+
 /* Adds everything of the scene that can change a pixel, except the settings, to the hash. */
 void scene_hash(const struct scene *scene, struct hash *hash);
 
