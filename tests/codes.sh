@@ -11,10 +11,6 @@ passed=0 failed=0
 # Explained already, not used in src/ yet.
 pending=''
 
-# Their examples take options that the command line does not have yet.
-untried=''
-options=''
-
 # Not in the expected texts of tests/errors/ and tests/import/: what no scene gives.
 elsewhere='
 cannot-read         no scene: tests/formats/expected.json
@@ -91,9 +87,6 @@ gives() { [ "$(codes_in "$1")" = "$2" ] || { echo "it gives: $(codes_in "$1")"; 
 expected() { case $1 in import-fresnel) printf '%s\n' "$1" import-shadow ;; *) echo "$1" ;; esac; } # glass has both
 silent() { [ ! -s "$1" ] || { cat "$1"; false; }; }
 
-words "$untried" >"$work/untried"
-has_no_options() { ! "$monge" check -h | grep -qE -e "$options"; }
-
 monge() { "$monge" "$@"; }
 export monge
 export -f monge
@@ -103,10 +96,6 @@ cd "$work/run" || exit 2
 while IFS=$'\t' read -r code kind severity; do
     grep -qx -e "$code" "$work/pending" && continue
     wrong=$work/example.$code.wrong right=$work/example.$code.right
-    if grep -qx -e "$code" "$work/untried"; then
-        check "$code: its example can be tried now, take it off \`untried\`" has_no_options
-        continue
-    fi
     case $kind in
     book)
         "$monge" import "$wrong" -o book.yaml >/dev/null 2>"$work/wrong"
