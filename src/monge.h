@@ -35,7 +35,8 @@ const char *monge_schema(void);
 const char *monge_example(void);
 
 /* Prints the manual of a word of the language: a kind of mapping ("material"), a key of any of them
- * ("radius"), or "language" for all kinds. False, printing nothing, when there is no such word. */
+ * ("radius"), a function or a constant of expressions ("sin"), or "language" for all kinds, "functions",
+ * "presets". False, printing nothing, when there is no such word. */
 bool monge_help(const char *word, FILE *out);
 
 /* The word for monge_help that was probably meant; static. NULL: none is near. */

@@ -134,7 +134,26 @@ exits 0 help look_at; exits 0 help rotate; out_has 'Its keys; exactly one of tho
 exits 2 help raduis; err_has 'no command and no word of scenes `raduis`; did you mean `radius`?'; no_out
 exits 2 help kone; err_has 'did you mean `cone`?'
 exits 2 help xyzzy; err_has 'no word of scenes `xyzzy`'; ok "nothing is near" sh -c '! grep -q mean err'
-exits 0 help language; out_has '  sphere '
+exits 0 help sin; out_has 'In expressions, sin(x):'; out_has 'As in: sin(30), which is 0.5'; no_err
+exits 0 help sqrt; out_has 'Takes 0 or more.'
+exits 0 help pi; out_has 'In expressions, pi: 3.14159265358979'
+exits 0 help step; out_has 'step: a transform'; out_has 'The key `step` of range:'; out_has 'In expressions, step(edge, x):'
+exits 2 help smoothstp; err_has 'did you mean `smoothstep`?'; no_out
+exits 2 help tua; err_has 'did you mean `tau`?'
+exits 0 help functions; out_has '  mix(a, b, t) '; out_has '  tau '; ok "functions fit 80 columns" [ -z "$(grep -E '.{81}' out)" ]
+functions=0
+for name in $(sed -n 's/^  \([a-z][a-z0-9]*\)[( ].*/\1/p' out); do
+    exits 0 help "$name"; out_has "In expressions, $name"
+    functions=$((functions + 1))
+done
+ok "there were functions" [ $functions -gt 30 ]
+exits 0 help presets; out_has '  glass '; out_has 'refraction: 0.9, index: 1.5'; no_err
+ok "presets fit 80 columns" [ -z "$(grep -E '.{81}' out)" ]
+presets=$(sed -n 's/^  \([a-z][a-z]*\) .*/\1/p' out)
+{ echo 'scene:'; printf '  - {sphere: {}, material: {preset: %s}}\n' $presets; } >presets.yaml
+exits 0 check presets.yaml; no_err
+ok "there were presets" [ "$(wc -l <presets.yaml)" -gt 15 ]
+exits 0 help language; out_has '  sphere '; out_has 'monge help presets'
 ok "the language fits 80 columns" [ -z "$(grep -E '.{81}' out)" ]
 for kind in $(sed -n '/^The mappings/,$s/^  \([a-z_0-9]*\) .*/\1/p' out); do
     exits 0 help $kind; out_has "$kind"

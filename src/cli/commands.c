@@ -260,10 +260,12 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
             .doc = "tell how to use monge, or what a word of a scene means",
             .text = {"Without a word: what there is. The manual page and the completion scripts come "
                      "from the same table as this text. A word is any that a scene may have as a key, "
-                     "or the kind of one of its mappings; `language` gives them all."},
+                     "the kind of one of its mappings, or what an expression may call or name; `language`, "
+                     "`functions` and `presets` list what there is."},
             .examples = {{"monge help render", "the options of render"},
                          {"monge help language", "a scene to begin with, and the kinds of mappings"},
                          {"monge help material", "the keys of a material, with types and defaults"},
+                         {"monge help presets", "the materials that come with the program"},
                          {"source <(monge help --completion bash)", "completion in this shell"}},
             .run = help_command,
         },

@@ -22,7 +22,7 @@ static void print_codes(FILE *out) {
 /* What `monge help` may be followed by. */
 static void print_help_words(FILE *out) {
     print_commands(out);
-    fputs(" language", out);
+    fputs(" language functions presets", out);
     for (size_t i = 0; monge_kind(i); i++)
         if (command_find(monge_kind(i)) == COMMAND_NONE) fprintf(out, " %s", monge_kind(i));
 }

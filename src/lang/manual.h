@@ -9,8 +9,9 @@
 /* The JSON Schema of scenes: grammar/scene.schema.json. Generated. */
 extern const char lang_schema[];
 
-/* Prints what there is to know of a kind, of a key in each of its kinds, or, for `language`, of the
- * language as a whole. False, with nothing printed: there is no such word. */
+/* Prints what there is to know of a kind, of a key in each of its kinds, of a function or a constant of
+ * expressions; of the language as a whole for `language`, and lists for `functions` and `presets`. False,
+ * with nothing printed: there is no such word. */
 bool lang_help(const char *word, FILE *out);
 
 /* A scene to begin with, as YAML; static. */

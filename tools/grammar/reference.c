@@ -42,8 +42,8 @@ static void reference_expressions(FILE *out, const struct definition *language) 
           "| `a \\|\\| b` | or; b is not looked at where a is not 0 |\n"
           "| `a ? b : c` | b where a is not 0, else c |\n\n"
           "Vectors go through arithmetic and through the functions of numbers part by part; a number meets a vector by being repeated. "
-          "Angles are in degrees. Every result must be a finite number. `#rgb`, `#rrggbb` and the names of CSS are linear colours; a name "
-          "of the scene comes before a constant or colour of the same name.\n\n"
+          "Angles are in degrees. Every result must be a finite number. `#rgb`, `#rrggbb` and the names of CSS are linear colours; no "
+          "parameter and no loop variable can have the name of a colour or a constant.\n\n"
           "| function | | example | gives |\n| --- | --- | --- | --- |\n", out);
     for (const struct node *k = language->functions->first; k; k = k->next->next) {
         const char *call = text_of(k->next, "call"), *doc = text_of(k->next, "doc");
