@@ -110,8 +110,9 @@ coverage: deps editor-deps ## the tests with gcc's line coverage, per file of sr
 	+@$(SUBMAKE) run-tests CC=gcc CFLAGS="-O0 -g" BUILD=$(BUILD)/coverage VARIANT="--coverage -fprofile-update=atomic"
 	@tools/coverage $(BUILD)/coverage 90
 
-bench: all ## time scenes/report/final.yaml at 1024x1024
-	@tools/bench $(BUILD)/monge
+bench: all ## measure reading beside libyaml, and rendering
+	+@$(SUBMAKE) $(BUILD)/tools/measure $(BUILD)/tools/yaml_events
+	@tools/bench $(BUILD)
 
 reference: ## make reference.md, errors.md and scene.schema.json in grammar/ anew from grammar/*.yaml
 	+@$(SUBMAKE) $(BUILD)/tools/grammar $(BUILD)/tools/diagnostics
@@ -202,6 +203,11 @@ $(BUILD)/tests/%: $(BUILD)/obj/tests/unit/%.o $(BUILD)/libmonge.a
 	$(QUIET)$(LINK) -o $@ $^ -lcmocka $(LIBS)
 
 $(BUILD)/tools/grammar: $(call object,$(wildcard tools/grammar/*.c)) $(TOOL_OBJECTS)
+	@mkdir -p $(@D)
+	$(call say,link,$@)
+	$(QUIET)$(LINK) -o $@ $^ $(LIBS)
+
+$(BUILD)/tools/measure $(BUILD)/tools/yaml_events: $(BUILD)/tools/%: $(BUILD)/obj/tools/%.o
 	@mkdir -p $(@D)
 	$(call say,link,$@)
 	$(QUIET)$(LINK) -o $@ $^ $(LIBS)

@@ -17,6 +17,7 @@
 #include "lang/import.h"
 #include "lang/lang.h"
 #include "lang/stories.h"
+#include "render/examine.h"
 #include "render/render.h"
 #include "scene/scene.h"
 
@@ -78,7 +79,7 @@ void monge_write_json_string(const char *text, FILE *out) { json_string(text, ou
 
 static const struct monge_limits default_limits = {
     .file_bytes = (size_t)1 << 30, .memory_bytes = (size_t)8 << 30, .values = 100 * 1000 * 1000, .nesting = 100,
-    .recursion = 100, .steps = 100 * 1000 * 1000, .objects = 20 * 1000 * 1000};
+    .recursion = 100, .steps = 10 * 1000 * 1000, .objects = 20 * 1000 * 1000};
 
 enum { MAX_NESTING = 1000, MAX_RECURSION = 1000 }; /* what the stack of a thread has room for */
 
@@ -338,6 +339,14 @@ bool monge_scene_prepare(struct monge_scene *scene) {
     else arena_release(&scene->body, before);
     scene->body.on_full = NULL;
     return scene->accel != NULL;
+}
+
+void monge_scene_examine(struct monge_scene *scene, struct monge_diagnostics *diag) {
+    jmp_buf full;
+    struct arena scratch = {.on_full = &full};
+    if (!monge_scene_prepare(scene)) return;
+    if (setjmp(full) == 0) examine_scene(&scene->scene, scene->accel, scene->result.frames > 0, &scratch, &diag->list);
+    arena_free(&scratch);
 }
 
 /* ---- Importing ---- */

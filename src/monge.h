@@ -85,7 +85,7 @@ struct monge_limits {
     size_t values;       /* values read from one file, aliases expanded: 100,000,000 */
     size_t nesting;      /* lists and mappings within each other: 100 */
     size_t recursion;    /* templates in use within each other: 100; at most 1000 */
-    size_t steps;        /* objects looked at and turns of loops: 100,000,000 */
+    size_t steps;        /* objects of templates and loops, placed or not: 10,000,000 */
     size_t objects;      /* shapes: 20,000,000, those of a template placed many times once */
 };
 
@@ -133,6 +133,10 @@ size_t monge_scene_primitives(const struct monge_scene *scene);
 /* Builds the acceleration structure, which monge_render does itself where it has not been done.
  * False when there is no memory for it. */
 bool monge_scene_prepare(struct monge_scene *scene);
+
+/* Looks for what would render wrong, without rendering: nothing in view, the camera inside of a solid, objects and
+ * lights without effect. Each is a warning in diag. Prepares the scene; where there is no memory for that, nothing. */
+void monge_scene_examine(struct monge_scene *scene, struct monge_diagnostics *diag);
 
 /* ---- Scenes of others ---- */
 

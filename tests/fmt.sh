@@ -132,6 +132,8 @@ for odd in '? scene\n: []\n' '{[a]: b}\n' '{[a,\n b]: c}\n' 'a: "\342\200\250"\n
     printf "$odd" | "$monge" fmt - >out 2>err
     ok "refused: $odd" [ $? -eq 2 -a -s err -a ! -s out ]
 done
+printf '? scene\n: []\n' | "$monge" fmt - 2>err
+ok "it has a code" grep -q '^<stdin>:1:1: error\[odd-key\]' err
 
 echo "fmt: $passed passed, $failed failed"
 [ "$failed" -eq 0 ]

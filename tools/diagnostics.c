@@ -35,6 +35,7 @@ static const struct node *read_file(const char *path) {
 /* What sort of example a code has; the word is the key that it stands under. */
 static const char *const example_kinds[] = {
     "scene",    /* two scenes: the first gives the code and no other, the second nothing */
+    "book",     /* the same of two scenes for `monge import` */
     "commands", /* the same of two shell commands, beside a scene king.yaml */
     "sketch",   /* what is too large to be tried */
 };
@@ -65,7 +66,7 @@ static struct story read_story(const struct node *code) {
         story.kind = example_kinds[i];
     }
     if (!example || body->count != 4) {
-        diag_error(&diag, code->span, "definition", "a code has severity, summary, story and one of scene, commands, sketch");
+        diag_error(&diag, code->span, "definition", "a code has severity, summary, story and one of scene, book, commands, sketch");
         fail();
     }
     story.severity = need_text(body, "severity");
@@ -124,7 +125,8 @@ static void write_tables(FILE *out, const struct story *all, size_t count) {
 /* As `yml`: what stands in a manual as `yaml` is tried as a scene by itself. */
 static void reference_example(FILE *out, const char *title, const struct story *s, const char *text) {
     const bool ends = *text && text[strlen(text) - 1] == '\n';
-    fprintf(out, "\n%s:\n\n```%s\n%s%s```\n", title, strcmp(s->kind, "scene") == 0 ? "yml" : "", text, ends ? "" : "\n");
+    const bool is_yaml = strcmp(s->kind, "scene") == 0 || strcmp(s->kind, "book") == 0;
+    fprintf(out, "\n%s:\n\n```%s\n%s%s```\n", title, is_yaml ? "yml" : "", text, ends ? "" : "\n");
 }
 
 static void write_reference(FILE *out, const struct story *all, size_t count) {

@@ -137,8 +137,12 @@ static void append_related(struct diagnostics *diag, struct diagnostic *d, struc
 static void add_frames(struct diagnostics *diag, struct diagnostic *d) {
     enum { SHOWN = 6 };
     int i = 0;
-    for (const struct diag_frame *frame = diag->frame; frame && i < SHOWN; frame = frame->outer, i++)
-        append_related(diag, d, frame->span, frame->text(&diag->arena, frame));
+    for (const struct diag_frame *frame = diag->frame; frame && i < SHOWN; frame = frame->outer, i++) {
+        const char *told = frame->text(&diag->arena, frame);
+        char *text = arena_text(&diag->arena, told, strlen(told));
+        *copy_safe(text, text, strlen(text)) = '\0';
+        append_related(diag, d, frame->span, text);
+    }
 }
 
 /* Past the kept ones nothing is copied: a file of a million mistakes is no burden. */

@@ -60,6 +60,8 @@ char *say_text(const char *format, ...) {
 void streams_open(void) {
     for (int fd = 0; fd <= 2; fd++)
         if (fcntl(fd, F_GETFD) < 0) (void)!open("/dev/null", fd == 0 ? O_WRONLY : O_RDONLY);
+    static char buffer[1 << 18]; /* whatever is printed at once is flushed at once: its errno is known */
+    setvbuf(stdout, buffer, _IOFBF, sizeof buffer);
 }
 
 static int output_error; /* of stdout: the first errno, which later calls on a stream that has failed lose */

@@ -20,7 +20,7 @@ static void collect(struct checker *ck, void *context) {
     struct collection *c = context;
     const struct node *when = node_resolve(c->item)->kind == NODE_MAPPING ? node_get(node_resolve(c->item), "when") : NULL;
     bool holds = true;
-    if (ck->stopped || ++ck->steps > ck->input->limits.steps) return; /* reported by place.c, or with the next object */
+    if (!place_count_step(ck, c->item)) return;
     if (when && grammar_find_key(c->kind, "when") >= 0 && loop_condition(ck, when, &holds) == QUANTITY_OK && !holds) return;
     struct object_value *object = check_object(ck, c->kind, c->item);
     if (!object) return;
@@ -37,12 +37,15 @@ static void collect_item(struct checker *ck, struct collection *c, const struct 
     const struct binding *b = scope_stands_for(ck, item);
     if (b && b->kind == BINDING_UNKNOWN) return;
     const struct scope *outer = ck->scope;
+    const struct diag_frame frame = scope_frame(ck, item);
     if (b) ck->scope = b->scope;
+    if (b) ck->diag->frame = &frame;
     c->item = b ? b->node : item;
     const struct node *n = node_resolve(c->item);
     const struct node *loop = n->kind == NODE_MAPPING && grammar_find_key(c->kind, "for") >= 0 ? node_get(n, "for") : NULL;
     if (loop) loop_run(ck, loop, collect, c);
     else collect(ck, c);
+    ck->diag->frame = frame.outer;
     ck->scope = outer;
 }
 
@@ -125,7 +128,7 @@ static bool check_values(struct checker *ck, const struct grammar_key *key, cons
     }
     bool good = true;
     for (const struct node *name = n->first; name; name = name->next->next) {
-        if (!node_is_null(name->next)) continue;
+        if (!node_is_null(name->next) || key->type == GRAMMAR_MAP) continue; /* define.c reads a map's */
         diag_help(ck->diag, diag_error(ck->diag, name->span, "no-value", "`%s` has no value", node_resolve(name)->kind == NODE_SCALAR ? short_text(ck, node_resolve(name)->text) : "it"), "give it one, or remove the key");
         good = false;
     }
@@ -169,10 +172,13 @@ static bool check_value(struct checker *ck, const struct grammar_key *key, const
         take_any(ck, key, out);
         return ck->rehearsing;
     }
-    if (!place_descend(ck, node)) return false;
+    if (!place_descend(ck, node->span)) return false;
     const struct scope *outer = ck->scope;
+    const struct diag_frame frame = scope_frame(ck, node);
     ck->scope = b->scope;
+    ck->diag->frame = &frame;
     const bool good = check_value(ck, key, b->node, out);
+    ck->diag->frame = frame.outer;
     ck->scope = outer;
     ck->depth--;
     return good;
@@ -236,7 +242,11 @@ static void check_unknown(struct checker *ck, struct object_value *object, struc
     if (index < 0) return;
     const bool again = mapping->given[index] || mapping->meant[index];
     mapping->meant[index] = true;
-    if (!again) check_field(ck, object->kind, &object->kind->keys[index], name);
+    const struct grammar_key *key = &object->kind->keys[index];
+    const struct value *value = again ? NULL : check_field(ck, object->kind, key, name);
+    const bool knows_names = object->kind != &grammar_kinds[KIND_TEMPLATE]; /* its parameters are not in scope here */
+    if (value && knows_names && key->type == GRAMMAR_LIST && key->of == &grammar_kinds[KIND_OBJECT])
+        place_members(ck, (int)(object->kind - grammar_kinds), index, value->node);
 }
 
 /* The pair's value goes to its field. False: something of it was reported. */
@@ -262,7 +272,7 @@ static bool check_pair(struct checker *ck, struct object_value *object, struct m
 static void check_required(struct checker *ck, struct object_value *object, const struct mapping *mapping) {
     for (int i = 0; i < object->kind->key_count; i++) {
         const struct grammar_key *key = &object->kind->keys[i];
-        if (!key->required || mapping->given[i]) continue;
+        if (!key->required || mapping->given[i] || (ck->included && object->kind == &grammar_kinds[KIND_FILE])) continue;
         object->failed = true;
         if (mapping->meant[i]) continue; /* reported as an unknown key */
         struct diagnostic *d = diag_error(ck->diag, object->span, "missing-key", "%s needs the key `%s`", object->kind->title, key->name);

@@ -72,8 +72,10 @@ struct checker {
     struct unit *units;
     const struct object_value *animation; /* NULL: none, or not read yet */
     bool names_lost;           /* definitions could not be read: nothing can be said of names */
+    bool variables_lost;       /* the same of parameters */
     bool provisional;          /* more names may come: what is not there yet is waited for */
     bool waiting;              /* a name was looked for in vain while provisional */
+    bool included;             /* the file that is checked is there for its definitions: it needs no scene */
     bool rehearsing;           /* names and forms are checked; values are not known, nothing is placed */
     bool stopped;              /* a limit was passed: evaluation is over */
     bool moved;                /* the animation's variables were read */
@@ -100,6 +102,12 @@ bool check_integer(struct checker *ck, const struct grammar_key *key, const stru
 bool check_boolean(struct checker *ck, const struct grammar_key *key, const struct node *node, int *out);
 bool check_choice(struct checker *ck, const struct grammar_key *key, const struct node *node, int *out);
 bool check_text(struct checker *ck, const struct grammar_key *key, const struct node *node, const char **out);
+
+/* Adds the variable that a word was meant to be, or those that there are. */
+void scalar_help_variable(struct checker *ck, struct diagnostic *d, const char *word);
+
+/* Adds `true` or `false` for a word like `yes`. Whether it is one. */
+bool scalar_help_truth(struct checker *ck, struct diagnostic *d, const char *word);
 
 /* Whether the text is a number of the language: decimal, of any size. */
 bool scalar_is_number(const char *text);
@@ -141,6 +149,9 @@ const char *define_name_taken(const char *name);
 /* Makes the names known that the unit has so far, and reads what can be read of them. */
 void define_names(struct checker *ck, struct unit *unit);
 
+/* Whether the value, read in the scope of now, is in the range that a parameter's declaration states. Reported if not. */
+bool define_in_range(struct checker *ck, const char *name, const struct node *declared, const struct node *value);
+
 /* The definition's object, read now if it was not; NULL: reported, or not known yet. */
 struct object_value *define_read(struct checker *ck, struct definition *def);
 
@@ -150,8 +161,11 @@ const struct binding *define_parameter(struct checker *ck, struct parameter *par
 /* The presets, read at the first call. */
 struct definitions *define_presets(struct checker *ck);
 
-/* Warns of names that nothing uses, and reports values from outside for parameters that are not there. */
-void define_check_used(struct checker *ck);
+/* Reports values from outside for parameters that are not there. */
+void define_check_given(struct checker *ck);
+
+/* Warns of names that nothing uses. */
+void define_warn_unused(struct checker *ck);
 
 /* ---- include.c ---- */
 
@@ -162,6 +176,9 @@ void include_files(struct checker *ck, const struct unit *unit, const struct nod
 
 /* Calls `turn` for every turn of the loop (the value of `for`), its variables in scope. */
 void loop_run(struct checker *ck, const struct node *loop, void (*turn)(struct checker *ck, void *context), void *context);
+
+/* "-1", "[0.5, 2]" */
+const char *quantity_text(struct arena *arena, const struct quantity *q);
 
 /* "i = 3, tint = gold". */
 const char *loop_bindings_text(struct arena *arena, const struct scope *scope);
@@ -175,11 +192,17 @@ enum quantity_result loop_condition(struct checker *ck, const struct node *node,
 void place_item(struct checker *ck, const struct node *node);
 void place_list(struct checker *ck, const struct node *list);
 
+/* The same of the value of a key, both by their numbers, so that messages know where it stands. */
+void place_members(struct checker *ck, int kind, int key, const struct node *list);
+
+/* One more object looked at, or turn of a loop: false, and reported, past the limit. */
+bool place_count_step(struct checker *ck, const struct node *node);
+
 /* What a parameter is where nobody sets it, of the value that it is declared with. */
 const struct node *place_default(const struct node *declared);
 
 /* One level further into what names stand for, ck->depth counts them: false, and reported, past the limit. */
-bool place_descend(struct checker *ck, const struct node *node);
+bool place_descend(struct checker *ck, struct span span);
 
 /* ---- keyframes.c ---- */
 
@@ -194,8 +217,14 @@ bool only_counted(struct checker *ck, struct span span);
 /* "a list of 3", "`abc`": what was found, for messages; "" when nobody will read it. */
 const char *found_text(struct checker *ck, const struct node *node);
 
+/* The same of a node that has this value: "`r`, which is -1". */
+const char *found_quantity(struct checker *ck, const struct node *node, const struct quantity *value);
+
 /* The text, or its beginning and `...`: for messages. */
 const char *short_text(struct checker *ck, const char *text);
+
+/* The index of the key that a word was probably meant to be, or -1. */
+int meant_key(const struct grammar_kind *kind, const char *word);
 
 /* The index of the key that was probably meant, or -1. Marks a key under which it belongs as meant. */
 int report_unknown_key(struct checker *ck, const struct grammar_kind *kind, struct mapping *mapping, const struct node *key);

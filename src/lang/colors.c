@@ -42,8 +42,9 @@ bool color_parse(const char *text, vec3 *out) {
         *out = linear_from_bytes(rgb);
         return true;
     }
+    const char first = (char)(text[0] | 0x20); /* the names are in small letters */
     for (int i = 0; i < grammar_color_count; i++)
-        if (strcasecmp(text, grammar_colors[i].name) == 0) {
+        if (first == grammar_colors[i].name[0] && strcasecmp(text, grammar_colors[i].name) == 0) {
             *out = linear_from_bytes(grammar_colors[i].rgb);
             return true;
         }
@@ -152,7 +153,10 @@ static enum quantity_result read_color(struct checker *ck, const struct grammar_
     if (result == QUANTITY_UNKNOWN) *out = (vec3){key->value[0], key->value[1], key->value[2]};
     if (result != QUANTITY_OK) return result;
     if (q.count == 1 && key->type == GRAMMAR_AMOUNT) return check_grey(ck, key, node, out) ? QUANTITY_OK : QUANTITY_WRONG;
-    if (q.count != 3) return QUANTITY_NONE;
+    if (q.count != 3) {
+        diag_error(ck->diag, node->span, "not-a-color", "`%s`: expected a colour, found %s", key->name, found_quantity(ck, node, &q));
+        return QUANTITY_WRONG;
+    }
     if (!check_color_range(ck, key, node, q.v)) return QUANTITY_WRONG;
     *out = (vec3){q.v[0], q.v[1], q.v[2]};
     return QUANTITY_OK;

@@ -22,7 +22,7 @@ const char *define_name_taken(const char *name) {
 bool define_name_allowed(struct checker *ck, const char *what, const struct node *name) {
     const struct node *n = node_resolve(name);
     if (n->kind != NODE_SCALAR) {
-        diag_error(ck->diag, name->span, "key-not-a-word", "the name of %s is a word, found %s", what + 2, found_text(ck, name));
+        diag_error(ck->diag, name->span, "key-not-a-word", "the name of %s is a word, found %s", what, found_text(ck, name));
         return false;
     }
     const char *taken = scope_is_name(n->text) ? define_name_taken(n->text) : "letters, digits and _ make a name, the first no digit";
@@ -58,7 +58,10 @@ static struct node *given_from_outside(struct checker *ck, const char *name) {
 
 static void declare_parameters(struct checker *ck, const struct node *value) {
     const struct node *n = node_resolve(value);
-    if (n->kind != NODE_MAPPING) return; /* reported with the rest of the file */
+    if (n->kind != NODE_MAPPING) {
+        ck->variables_lost = true; /* reported with the rest of the file */
+        return;
+    }
     for (const struct node *name = n->first; name; name = name->next->next) {
         if (!define_name_allowed(ck, "a parameter", name)) continue;
         const struct parameter *before = table_find(&ck->parameters, node_resolve(name)->text);
@@ -73,10 +76,6 @@ static void declare_parameters(struct checker *ck, const struct node *value) {
         *ck->parameters_end = p;
         ck->parameters_end = &p->next;
     }
-}
-
-static void report_cycle(struct checker *ck, struct span span, const char *what, const char *name) {
-    diag_error(ck->diag, span, "definition-cycle", "the %s `%s` is defined by itself", what, short_text(ck, name));
 }
 
 /* What the reading of a definition must not see: it is the same wherever it is needed first. */
@@ -108,34 +107,46 @@ static void come_back(struct checker *ck, const struct elsewhere *here) {
     ck->depth--;
 }
 
-/* Numbers given from outside must lie in the range that the parameter's mapping states. */
-static bool check_parameter(struct checker *ck, const struct parameter *p) {
-    const struct node *n = node_resolve(p->node);
-    if (n->kind != NODE_MAPPING || !node_get(n, "default")) return true;
-    const struct object_value *object = check_object(ck, &grammar_kinds[KIND_PARAM], p->node);
+/* Whether the mapping declares a parameter; else it is a value, as a material might be. */
+static bool is_declaration(const struct node *mapping) {
+    for (const struct node *name = mapping->first; name; name = name->next->next) {
+        const struct node *word = node_resolve(name);
+        if (word->kind != NODE_SCALAR) continue;
+        if (strcmp(word->text, "default") == 0 || strcmp(word->text, "doc") == 0 || meant_key(&grammar_kinds[KIND_PARAM], word->text) == KEY_PARAM_DEFAULT) return true;
+    }
+    return false;
+}
+
+bool define_in_range(struct checker *ck, const char *name, const struct node *declared, const struct node *value) {
+    const struct node *n = node_resolve(declared);
+    if (n->kind != NODE_MAPPING || !is_declaration(n)) return true;
+    const struct object_value *object = check_object(ck, &grammar_kinds[KIND_PARAM], declared);
     if (!object || object->failed) return false;
-    if (p->binding.kind != BINDING_QUANTITY || p->binding.quantity.count != 1) return true;
-    struct grammar_key key = {.name = p->name, .type = GRAMMAR_NUMBER, .has_min = object_has(object, KEY_PARAM_MIN), .has_max = object_has(object, KEY_PARAM_MAX)};
-    key.min = key.has_min ? object_number(object, KEY_PARAM_MIN) : -1.7976931348623157e308;
-    key.max = key.has_max ? object_number(object, KEY_PARAM_MAX) : 1.7976931348623157e308;
-    key.has_min = key.has_min || key.has_max;
-    double value;
-    return check_number(ck, &key, p->given ? p->given : place_default(p->node), &value);
+    struct grammar_key key = {.name = name, .type = GRAMMAR_NUMBER, .has_min = object_has(object, KEY_PARAM_MIN), .has_max = object_has(object, KEY_PARAM_MAX),
+                              .min = object_number(object, KEY_PARAM_MIN), .max = object_number(object, KEY_PARAM_MAX)};
+    double ignored;
+    if (key.has_min && key.has_max && key.min > key.max) {
+        diag_error(ck->diag, object_span(object, KEY_PARAM_MAX), "contradiction", "`%s`: the `max` is less than the `min`", name);
+        return false;
+    }
+    return !(key.has_min || key.has_max) || check_number(ck, &key, value, &ignored);
 }
 
 const struct binding *define_parameter(struct checker *ck, struct parameter *p) {
     p->used = true;
     if (p->state == READING_DONE) return p->binding.name ? &p->binding : NULL;
     if (p->state == READING_UNDER_WAY) {
-        report_cycle(ck, p->span, "parameter", p->name);
-        return NULL;
+        diag_error(ck->diag, p->span, "definition-cycle", "the parameter `%s` is defined by itself", p->name);
+        p->binding = (struct binding){.name = p->name, .kind = BINDING_UNKNOWN};
+        return &p->binding;
     }
-    if (!place_descend(ck, p->node)) return NULL;
+    if (!place_descend(ck, p->node->span)) return NULL;
     const struct elsewhere here = leave(ck);
+    const struct node *value = p->given ? p->given : place_default(p->node);
     p->state = READING_UNDER_WAY;
     const bool waited = ck->waiting;
     ck->waiting = false;
-    const bool good = scope_bind(ck, p->name, p->given ? p->given : place_default(p->node), &p->binding) && check_parameter(ck, p);
+    const bool good = scope_bind(ck, p->name, value, &p->binding) && define_in_range(ck, p->name, p->node, value);
     p->state = ck->waiting ? READING_UNREAD : READING_DONE;
     const bool later = ck->waiting;
     ck->waiting |= waited;
@@ -187,11 +198,13 @@ static void rehearse_template(struct checker *ck, const struct object_value *tem
         struct binding ignored;
         if (!define_name_allowed(ck, "a parameter", name)) continue;
         ck->scope = &scope;
-        if (!node_is_null(name->next)) scope_bind(ck, node_resolve(name)->text, place_default(name->next), &ignored);
+        const struct node *value = place_default(name->next);
+        if (!node_is_null(name->next) && scope_bind(ck, node_resolve(name)->text, value, &ignored))
+            define_in_range(ck, node_resolve(name)->text, name->next, value);
         bindings[scope.count++] = (struct binding){.name = node_resolve(name)->text, .kind = BINDING_UNKNOWN};
     }
     ck->scope = &scope;
-    if (objects) place_list(ck, objects->node);
+    if (objects) place_members(ck, KIND_TEMPLATE, KEY_TEMPLATE_OBJECTS, objects->node);
     ck->rehearsing = false;
     arena_release(ck->arena, before);
     ck->arena = kept;
@@ -204,14 +217,24 @@ static struct object_value *failed_object(struct checker *ck, const struct defin
     return object;
 }
 
+static void report_extends_cycle(struct checker *ck, const struct definition *def) {
+    struct diagnostic *d = diag_error(ck->diag, def->span, "definition-cycle", "the material `%s` extends itself", short_text(ck, def->name));
+    const struct definition *at = def;
+    for (int i = 0; at && i < 6 && (at != def || i == 0); i++) {
+        const struct node *base = node_get(node_resolve(at->node), "extends");
+        diag_related(ck->diag, d, base->span, "`%s` extends `%s`", short_text(ck, at->name), short_text(ck, node_resolve(base)->text));
+        at = table_find(&ck->materials.names, node_resolve(base)->text);
+    }
+}
+
 struct object_value *define_read(struct checker *ck, struct definition *def) {
     def->used = true;
     if (def->state == READING_DONE) return def->object;
     if (def->state == READING_UNDER_WAY) {
-        if (def->kind != &grammar_kinds[KIND_TEMPLATE]) report_cycle(ck, def->span, strchr(def->kind->title, ' ') + 1, def->name);
+        if (def->kind != &grammar_kinds[KIND_TEMPLATE]) report_extends_cycle(ck, def);
         return NULL;
     }
-    if (!place_descend(ck, def->node)) return NULL;
+    if (!place_descend(ck, def->node->span)) return NULL;
     const struct elsewhere here = leave(ck);
     const bool waited = ck->waiting;
     const unsigned errors = ck->diag->errors;
@@ -254,15 +277,20 @@ struct definitions *define_presets(struct checker *ck) {
 /* ---- Files ---- */
 
 static void read_animation(struct checker *ck, const struct node *value) {
-    if (!place_descend(ck, value)) return;
+    if (!place_descend(ck, value->span)) return;
     const struct elsewhere here = leave(ck);
     const struct object_value *animation = check_object(ck, &grammar_kinds[KIND_ANIMATION], value);
     if (animation && !animation->failed) ck->animation = animation;
+    else ck->variables_lost = true;
     come_back(ck, &here);
 }
 
 static void declare_pair(struct checker *ck, const struct unit *unit, const char *word, const struct node *value) {
-    if (node_is_null(value)) return;
+    if (node_is_null(value)) {
+        ck->names_lost |= strcmp(word, "materials") == 0;
+        ck->variables_lost |= strcmp(word, "params") == 0;
+        return;
+    }
     if (strcmp(word, "params") == 0) declare_parameters(ck, value);
     else if (strcmp(word, "define") == 0) declare(ck, &ck->templates, &grammar_kinds[KIND_TEMPLATE], value);
     else if (strcmp(word, "materials") == 0) declare(ck, &ck->materials, &grammar_kinds[KIND_MATERIAL], value);
@@ -270,11 +298,18 @@ static void declare_pair(struct checker *ck, const struct unit *unit, const char
     else if (strcmp(word, "animation") == 0 && !unit->includer && !ck->animation) read_animation(ck, value);
 }
 
+/* The names under a misspelt key are known all the same: the key alone is reported. */
+static const char *meant_word(const char *word) {
+    const struct grammar_kind *file = &grammar_kinds[KIND_FILE];
+    const int meant = grammar_find_key(file, word) < 0 ? meant_key(file, word) : -1;
+    return meant < 0 ? word : file->keys[meant].name;
+}
+
 void define_names(struct checker *ck, struct unit *unit) {
     if (unit->root->kind != NODE_MAPPING) return;
     const struct node *name = unit->declared ? unit->declared->next->next : unit->root->first;
     for (; name; name = name->next->next) {
-        if (node_resolve(name)->kind == NODE_SCALAR) declare_pair(ck, unit, node_resolve(name)->text, name->next);
+        if (node_resolve(name)->kind == NODE_SCALAR) declare_pair(ck, unit, meant_word(node_resolve(name)->text), name->next);
         unit->declared = name;
     }
     if (unit->includer) return; /* read with those of the scene */
@@ -312,10 +347,12 @@ static void report_unknown_parameter(struct checker *ck, const char *name) {
     diag_note(ck->diag, d, *all ? "its parameters: %s" : "it has none: `params: {%s: 1}` makes one", *all ? all : short_text(ck, name));
 }
 
-void define_check_used(struct checker *ck) {
+void define_check_given(struct checker *ck) {
     for (size_t i = 0; i < ck->input->define_count; i++)
         if (!table_find(&ck->parameters, ck->input->defines[i].name)) report_unknown_parameter(ck, ck->input->defines[i].name);
-    if (ck->diag->errors > 0) return;
+}
+
+void define_warn_unused(struct checker *ck) {
     for (const struct parameter *p = ck->first_parameter; p; p = p->next)
         if (!p->used && p->span.source == ck->input->source)
             diag_help(ck->diag, diag_warning(ck->diag, p->span, "unused-definition", "the parameter `%s` is never used", p->name), "use it, or remove it");

@@ -2,6 +2,8 @@
 
 #include <string.h>
 
+#include "lang/checker.h"
+
 bool object_has(const struct object_value *object, int key) { return object->fields[key] != NULL; }
 
 double object_number(const struct object_value *object, int key) {
@@ -20,6 +22,12 @@ vec3 object_vec3(const struct object_value *object, int key) {
 
 const char *object_text(const struct object_value *object, int key) {
     return object->fields[key] ? object->fields[key]->text : NULL;
+}
+
+const char *object_reference(const struct object_value *object, int key, uint32_t *number) {
+    const struct definition *definition = object->fields[key] ? object->fields[key]->definition : NULL;
+    if (definition) *number = definition->number;
+    return definition ? definition->name : NULL;
 }
 
 const affine *object_matrix(const struct object_value *object, int key) {
@@ -46,6 +54,6 @@ int object_alternative(const struct object_value *object) {
 
 int grammar_find_key(const struct grammar_kind *kind, const char *name) {
     for (int i = 0; i < kind->key_count; i++)
-        if (strcmp(kind->keys[i].name, name) == 0) return i;
+        if (kind->keys[i].name[0] == name[0] && strcmp(kind->keys[i].name, name) == 0) return i;
     return -1;
 }

@@ -29,9 +29,11 @@ static void report_missing(struct checker *ck, const struct node *node, const ch
     const int reason = errno;
     const struct node *n = node_resolve(node);
     struct diagnostic *d = diag_error(ck->diag, node->span, "include-missing", "cannot read `%s`: %s", short_text(ck, n->text), strerror(reason));
-    diag_note(ck->diag, d, "looked for it at %s", path);
+    if (strcmp(path, n->text) != 0) diag_note(ck->diag, d, "looked for it at %s", path);
+    if (reason == EISDIR) return;
     const char *folder = arena_format(ck->arena, "%.*s", (int)folder_length(path), path);
     DIR *files = opendir(*folder ? folder : ".");
+    if (!files) diag_help(ck->diag, d, "there is no folder %s", folder);
     struct spelling s = spelling_begin(path + folder_length(path));
     const char *best = NULL;
     for (struct dirent *file = files ? readdir(files) : NULL; file; file = readdir(files)) {
@@ -41,6 +43,15 @@ static void report_missing(struct checker *ck, const struct node *node, const ch
     if (files) closedir(files);
     if (best) diag_help(ck->diag, d, "did you mean `%.*s%s`?", (int)folder_length(n->text), n->text, best);
 }
+
+static void report_no_definitions(struct checker *ck, const struct unit *unit) {
+    struct diagnostic *d = diag_error(ck->diag, unit->root->span, "not-a-mapping", "expected definitions, found %s", found_text(ck, unit->root));
+    diag_note(ck->diag, d, "an included file has `params`, `define`, `materials` or `include`");
+    diag_related(ck->diag, d, unit->include, "it is included here");
+}
+
+/* Nothing can be said of names that are not found: they may be in the file that cannot be read. */
+static void lose_names(struct checker *ck) { ck->names_lost = ck->variables_lost = true; }
 
 static void report_cycle(struct checker *ck, const struct unit *unit, const struct unit *again, const struct node *node) {
     struct diagnostic *d = diag_error(ck->diag, node->span, "include-cycle", "`%s` includes itself", again->source->name);
@@ -124,13 +135,17 @@ static void include_file(struct checker *ck, const struct unit *unit, const stru
     }
     const char *path = path_from(ck, unit, n->text);
     struct included *file = find_file(ck, node, path);
-    if (!file) return;
+    if (!file) {
+        lose_names(ck);
+        return;
+    }
     const struct unit *known = find_unit(ck, file);
     if (known && is_around(unit, known)) report_cycle(ck, unit, known, node);
-    if (known || !place_descend(ck, node)) return;
+    if (known || !place_descend(ck, node->span)) return;
     struct unit *included = read_unit(ck, unit, node, path, file);
     if (included && included->root->kind == NODE_MAPPING) define_names(ck, included);
-    else if (included) report_no_mapping(ck, &grammar_kinds[KIND_FILE], included->root);
+    else lose_names(ck);
+    if (included && included->root->kind != NODE_MAPPING) report_no_definitions(ck, included);
     ck->depth--;
 }
 

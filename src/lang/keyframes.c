@@ -24,6 +24,10 @@ static enum quantity_result read_frame(struct checker *ck, const struct node *na
     }
     unsigned at = count;
     for (; at > 0 && frames[at - 1].frame > f.frame; at--) frames[at] = frames[at - 1];
+    if (at > 0 && frames[at - 1].frame == f.frame) {
+        diag_error(ck->diag, name->span, "key-twice", "`keys`: the frame %.15g is given twice", f.frame);
+        return QUANTITY_WRONG;
+    }
     frames[at] = f;
     return QUANTITY_OK;
 }
@@ -52,7 +56,7 @@ static struct quantity value_at(const struct keyframe *frames, unsigned count, i
 enum quantity_result keyframes_read(struct checker *ck, const struct node *node, struct quantity *out) {
     const unsigned errors = ck->diag->errors;
     const struct object_value *object = check_object(ck, &grammar_kinds[KIND_KEYFRAMES], node);
-    if (!ck->animation && !ck->provisional && ck->diag->errors == errors) {
+    if (!ck->animation && !ck->provisional && !ck->variables_lost && ck->diag->errors == errors) {
         struct diagnostic *d = diag_error(ck->diag, node->span, "no-animation", "keyframes in a scene that does not move");
         diag_help(ck->diag, d, "add `animation: {frames: 24}`");
     }

@@ -36,7 +36,9 @@ static bool stream_item(void *context, struct node *item) {
     const size_t steps = ck->steps, objects = ck->objects;
     ck->input->sink->mark(ck->input->sink->context);
     ck->waiting = false;
+    ck->around = (struct surrounding){&grammar_kinds[KIND_FILE], &grammar_kinds[KIND_FILE].keys[KEY_FILE_SCENE]};
     place_item(ck, item);
+    ck->around = (struct surrounding){0};
     if (!ck->waiting) return true;
     ck->waiting = false;
     ck->steps = steps;
@@ -69,13 +71,17 @@ static struct unit *read_scene(struct checker *ck) {
 
 /* What an included file has besides definitions is for when it is rendered itself: no slip in it passes. */
 static void check_included(struct checker *ck) {
-    ck->rehearsing = true;
-    for (const struct unit *unit = ck->units; unit; unit = unit->next)
-        if (unit->includer && unit->root && unit->root->kind == NODE_MAPPING) {
-            const struct object_value *file = check_object(ck, &grammar_kinds[KIND_FILE], unit->root);
-            if (file && file->fields[KEY_FILE_SCENE]) place_list(ck, file->fields[KEY_FILE_SCENE]->node);
-        }
-    ck->rehearsing = false;
+    const struct object_value *animation = ck->animation;
+    ck->rehearsing = ck->included = true;
+    for (const struct unit *unit = ck->units; unit; unit = unit->next) {
+        if (!unit->includer || !unit->root || unit->root->kind != NODE_MAPPING) continue;
+        const struct node *moving = node_get(unit->root, "animation");
+        if (moving && !animation) ck->animation = check_object(ck, &grammar_kinds[KIND_ANIMATION], moving);
+        const struct object_value *file = check_object(ck, &grammar_kinds[KIND_FILE], unit->root);
+        if (file && file->fields[KEY_FILE_SCENE]) place_members(ck, KIND_FILE, KEY_FILE_SCENE, file->fields[KEY_FILE_SCENE]->node);
+        ck->animation = animation;
+    }
+    ck->rehearsing = ck->included = false;
 }
 
 static struct object_list named_materials(struct checker *ck) {
@@ -125,10 +131,11 @@ struct lang_result lang_read(struct lang_memory *memory, struct diagnostics *dia
     ck->provisional = false;
     define_names(ck, unit);
     struct object_value *file = read_file(ck, &memory->kept, unit);
-    if (file && file->fields[KEY_FILE_SCENE]) place_list(ck, file->fields[KEY_FILE_SCENE]->node);
+    if (file && file->fields[KEY_FILE_SCENE]) place_members(ck, KIND_FILE, KEY_FILE_SCENE, file->fields[KEY_FILE_SCENE]->node);
     if (file) check_included(ck);
+    if (file) define_check_given(ck);
     if (file) file->failed = diag->errors != errors;
-    if (file) define_check_used(ck);
+    if (file && !file->failed) define_warn_unused(ck);
     const unsigned frames = ck->animation ? (unsigned)object_number(ck->animation, KEY_ANIMATION_FRAMES) : 0;
     ck->arena = &memory->kept;
     return (struct lang_result){file, named_materials(ck), ck->moved, frames, ck};

@@ -28,9 +28,9 @@ struct lang_sink {
     void (*shape)(void *context, const struct object_value *object);
     void (*open_group)(void *context, const struct object_value *object);
     void (*close_group)(void *context);
-    /* `template` and its arguments, as a hash: uses of equal hash have equal objects. NULL: this use
-     * is like no other. */
-    enum lang_use (*open_use)(void *context, const struct object_value *object, const struct hash *contents);
+    /* The template and its arguments as a hash. exact: uses of equal hash have equal objects; else it
+     * is of the template alone, and the objects may be others each time. */
+    enum lang_use (*open_use)(void *context, const struct object_value *object, const struct hash *contents, bool exact);
     bool (*close_use)(void *context); /* true: read the objects once more, and close again */
     /* What was placed since the mark is taken back. */
     void (*mark)(void *context);

@@ -16,7 +16,7 @@ struct loop {
 
 /* ---- What is told of a turn ---- */
 
-static const char *quantity_text(struct arena *arena, const struct quantity *q) {
+const char *quantity_text(struct arena *arena, const struct quantity *q) {
     const char *text = arena_format(arena, "%s%.6g", q->count > 1 ? "[" : "", q->v[0]);
     for (unsigned i = 1; i < q->count; i++) text = arena_format(arena, "%s, %.6g", text, q->v[i]);
     return q->count > 1 ? arena_format(arena, "%s]", text) : text;
@@ -44,17 +44,23 @@ static const char *turn_text(struct arena *arena, const struct diag_frame *frame
 
 static void run_variables(struct loop *loop, const struct node *name);
 
+/* The variables after `name`. The turns of the last are counted as its objects. */
+static void run_rest(struct loop *loop, const struct node *name) {
+    const struct node *next = name->next->next;
+    if (!next || place_count_step(loop->ck, next)) run_variables(loop, next);
+}
+
 static void run_turn(struct loop *loop, const struct node *name, struct quantity value) {
     struct binding *b = &loop->bindings[loop->scope.count];
     *b = (struct binding){.name = node_resolve(name)->text, .kind = loop->ck->rehearsing ? BINDING_UNKNOWN : BINDING_QUANTITY, .quantity = value};
     loop->scope.count++;
-    run_variables(loop, name->next->next);
+    run_rest(loop, name);
     loop->scope.count--;
 }
 
 static bool may_turn(struct checker *ck, const struct node *node, double turns) {
     if (turns <= (double)ck->input->limits.steps) return true;
-    struct diagnostic *d = diag_error(ck->diag, node->span, "limit-steps", "a loop of %.15g turns: more than %zu (the limit `steps`)", turns, ck->input->limits.steps);
+    struct diagnostic *d = diag_error(ck->diag, node->span, "limit-steps", "a loop of %s turns: more than %zu (the limit `steps`)", isfinite(turns) ? arena_format(ck->arena, "%.15g", turns) : "endless", ck->input->limits.steps);
     diag_help(ck->diag, d, "a smaller loop, or `--limit steps=N`");
     return false;
 }
@@ -96,30 +102,36 @@ static bool run_range(struct loop *loop, const struct node *name) {
     return run_numbers(loop, name, from, step, floor((to - from) / step * (1.0 + 1e-12) + 1e-9) + 1.0);
 }
 
-static bool run_list(struct loop *loop, const struct node *name) {
+/* `scope`: of the names in the list. */
+static bool run_list(struct loop *loop, const struct node *name, const struct node *list, const struct scope *scope) {
     struct checker *ck = loop->ck;
-    bool good = true;
-    for (const struct node *item = node_resolve(name->next)->first; item && !ck->stopped; item = item->next) {
+    const struct scope *here = ck->scope;
+    for (const struct node *item = list->first; item && !ck->stopped; item = item->next) {
         struct binding *b = &loop->bindings[loop->scope.count];
-        good &= scope_bind(ck, node_resolve(name)->text, item, b);
-        if (!good) break;
+        ck->scope = scope;
+        const bool good = scope_bind(ck, node_resolve(name)->text, item, b);
+        ck->scope = here;
+        if (!good) return false;
         loop->scope.count++;
-        run_variables(loop, name->next->next);
+        run_rest(loop, name);
         loop->scope.count--;
     }
-    return good;
+    return true;
+}
+
+static bool run_vector(struct loop *loop, const struct node *name, const struct quantity *q) {
+    for (unsigned i = 0; i < q->count && !loop->ck->stopped && !loop->ck->waiting; i++) run_turn(loop, name, (struct quantity){1, {q->v[i]}});
+    return true;
 }
 
 static bool run_variable(struct loop *loop, const struct node *name) {
+    struct checker *ck = loop->ck;
     const struct node *n = node_resolve(name->next);
-    const struct binding *b = scope_stands_for(loop->ck, n); /* a list by its name */
-    if (b && b->kind == BINDING_NODE && node_resolve(b->node)->kind == NODE_SEQUENCE) {
-        struct node stand_in[2] = {*name, *node_resolve(b->node)};
-        stand_in[0].next = &stand_in[1];
-        stand_in[1].next = name->next->next;
-        return run_list(loop, &stand_in[0]);
-    }
-    if (n->kind == NODE_SEQUENCE) return run_list(loop, name);
+    const struct binding *b = n->kind == NODE_SCALAR && scope_is_name(n->text) ? scope_find(ck, n->text) : NULL;
+    const struct node *list = b && b->kind == BINDING_NODE ? node_resolve(b->node) : NULL;
+    if (b && b->kind == BINDING_QUANTITY && b->quantity.count > 1) return run_vector(loop, name, &b->quantity);
+    if (list && list->kind == NODE_SEQUENCE) return run_list(loop, name, list, b->scope);
+    if (n->kind == NODE_SEQUENCE) return run_list(loop, name, n, ck->scope);
     return n->kind == NODE_MAPPING && !keyframes_is(n) ? run_range(loop, name) : run_count(loop, name);
 }
 
@@ -140,6 +152,7 @@ static void run_variables(struct loop *loop, const struct node *name) {
 }
 
 static bool names_allowed(struct checker *ck, const struct node *n) {
+    if (n->rehearsed) return true;
     bool good = true;
     for (const struct node *name = n->first; name; name = name->next->next) {
         good &= define_name_allowed(ck, "a loop variable", name);
@@ -150,6 +163,7 @@ static bool names_allowed(struct checker *ck, const struct node *n) {
                 good = false;
             }
     }
+    ((struct node *)n)->rehearsed = good; /* remembers that it was checked, and means what it meant */
     return good;
 }
 
@@ -159,7 +173,7 @@ static void rehearse(struct loop *loop, const struct node *n) {
     const bool outer = ck->rehearsing;
     loop->scope.count = 0;
     for (const struct node *name = n->first; name; name = name->next->next)
-        loop->bindings[loop->scope.count++] = (struct binding){.name = node_resolve(name)->text, .kind = BINDING_UNKNOWN};
+        if (node_resolve(name)->kind == NODE_SCALAR) loop->bindings[loop->scope.count++] = (struct binding){.name = node_resolve(name)->text, .kind = BINDING_UNKNOWN};
     ck->rehearsing = true;
     loop->turn(ck, loop->context);
     ck->rehearsing = outer;
@@ -172,12 +186,12 @@ void loop_run(struct checker *ck, const struct node *node, void (*turn)(struct c
         diag_help(ck->diag, d, "as in `for: {i: 9}`");
         return;
     }
-    if (!names_allowed(ck, n)) return;
+    const bool allowed = names_allowed(ck, n);
     struct binding *bindings = arena_array(ck->arena, n->count, sizeof *bindings);
     struct loop loop = {.frame = {.span = node->span, .text = turn_text}, .ck = ck, .scope = {ck->scope, bindings, 0},
                         .bindings = bindings, .turn = turn, .context = context, .good = true};
     ck->scope = &loop.scope;
-    run_variables(&loop, n->first);
+    if (allowed) run_variables(&loop, n->first);
     if (!(loop.good && loop.turned) && !ck->waiting && !ck->stopped) rehearse(&loop, n);
     ck->scope = loop.scope.outer;
 }
@@ -191,6 +205,8 @@ enum quantity_result loop_condition(struct checker *ck, const struct node *node,
     *out = q.v[0] != 0.0;
     if (result != QUANTITY_NONE && !(result == QUANTITY_OK && q.count != 1)) return result;
     struct diagnostic *d = diag_error(ck->diag, node->span, "not-a-condition", "`when`: expected a condition, found %s", found_text(ck, node));
-    diag_help(ck->diag, d, "as in `when: depth > 0`");
+    if (n->kind == NODE_SCALAR && scalar_help_truth(ck, d, n->text)) return QUANTITY_WRONG;
+    if (n->kind == NODE_SCALAR && scope_is_name(n->text)) scalar_help_variable(ck, d, n->text);
+    else diag_help(ck->diag, d, "as in `when: depth > 0`");
     return QUANTITY_WRONG;
 }

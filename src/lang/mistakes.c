@@ -41,6 +41,13 @@ const char *found_text(struct checker *ck, const struct node *node) {
     return n->count == 0 ? "an empty text" : arena_format(ck->arena, "`%s`", short_text(ck, n->text));
 }
 
+const char *found_quantity(struct checker *ck, const struct node *node, const struct quantity *value) {
+    if (diag_full(ck->diag)) return "";
+    if (node_resolve(node)->kind == NODE_MAPPING)
+        return value->count == 1 ? "keyframes of numbers" : arena_format(ck->arena, "keyframes of vectors of %u", value->count);
+    return arena_format(ck->arena, "%s, which is %s", found_text(ck, node), quantity_text(ck->arena, value));
+}
+
 /* ---- What was meant ---- */
 
 static bool takes_mapping(const struct grammar_key *key) { return key->type == GRAMMAR_OBJECT || key->type == GRAMMAR_LIST; }
@@ -165,6 +172,12 @@ static struct spelling nearest_key(const struct grammar_kind *kind, const char *
     return s;
 }
 
+int meant_key(const struct grammar_kind *kind, const char *word) {
+    const int instead = key_instead(kind, word, false);
+    const struct spelling s = nearest_key(kind, word);
+    return instead >= 0 || !s.best || s.distance == 0 ? instead : grammar_find_key(kind, s.best);
+}
+
 /* The help for an unknown key, the surest first; returns the key that was meant, or -1. */
 static int help_unknown(struct checker *ck, struct diagnostic *d, const struct grammar_kind *kind, struct mapping *mapping, const struct node *key) {
     const char *word = node_resolve(key)->text;
@@ -219,6 +232,7 @@ static bool fits(const struct grammar_key *key, const struct node *n) {
     const bool word = n->kind == NODE_SCALAR && n->count > 0, row = n->kind == NODE_SEQUENCE && n->count == 3;
     switch (key->type) {
     case GRAMMAR_NUMBER: return word && scalar_is_number(n->text);
+    case GRAMMAR_INTEGER: return key->required && word && scalar_is_number(n->text);
     case GRAMMAR_CHOICE: return word && has_choice(key, n->text);
     case GRAMMAR_POINT: return row;
     case GRAMMAR_COLOR: return row || (word && color_parse(n->text, &color));
@@ -274,6 +288,7 @@ void report_no_mapping(struct checker *ck, const struct grammar_kind *kind, cons
     else if (index >= 0 && kind->keys[index].type != GRAMMAR_LATER) diag_help(ck->diag, d, "write {%s: ...}", n->text);
     else if (kind == &grammar_kinds[KIND_ROTATE] && n->kind == NODE_SEQUENCE) diag_help(ck->diag, d, "a step for each axis, as in [{rotate: {x: 30}}, {rotate: {y: 45}}]");
     else if (kind == &grammar_kinds[KIND_ROTATE]) diag_help(ck->diag, d, "name the axis: `rotate: {z: 45}`");
+    else if (kind == &grammar_kinds[KIND_TEMPLATE] && (n->kind == NODE_SEQUENCE || node_is_null(n))) diag_help(ck->diag, d, "write {objects: [...]}");
     else if (node_is_null(n)) diag_help(ck->diag, d, kind->keys[0].alternative ? "write one, or remove the item" : "for all its defaults write {}");
     else if (word && help_glued(ck, d, kind, n->text)) return;
     else if (is_list_of_mappings(n)) diag_help(ck->diag, d, "write its keys without `- `");
@@ -295,9 +310,11 @@ void report_no_list(struct checker *ck, const struct grammar_key *key, const str
 
 void report_no_map(struct checker *ck, const struct grammar_key *key, const struct node *node) {
     if (only_counted(ck, node->span)) return;
+    const bool values = key->type == GRAMMAR_VALUES;
     struct diagnostic *d = diag_error(ck->diag, node->span, "not-a-map", "`%s`: expected names, each with %s, found %s", key->name,
-                                      key->of->title, found_text(ck, node));
-    if (is_list_of_mappings(node_resolve(node))) diag_help(ck->diag, d, "write names instead of `- `, as in `%s: {gold: {...}}`", key->name);
+                                      values ? "a value" : key->of->title, found_text(ck, node));
+    if (values && key->example) diag_help(ck->diag, d, "as in `%s`", key->example);
+    else if (is_list_of_mappings(node_resolve(node))) diag_help(ck->diag, d, "write names instead of `- `, as in `%s: {gold: {...}}`", key->name);
     else diag_help(ck->diag, d, "as in `%s: {gold: {...}}`", key->name);
 }
 

@@ -10,18 +10,20 @@ static const struct grammar_kind *object_kind(void) { return &grammar_kinds[KIND
 /* Whether what is read goes to the sink. */
 static bool is_live(const struct checker *ck) { return !ck->rehearsing && !ck->waiting && !ck->stopped; }
 
-bool place_descend(struct checker *ck, const struct node *node) {
+bool place_descend(struct checker *ck, struct span span) {
     if (ck->stopped) return false;
     if (ck->depth++ < ck->input->limits.recursion) return true;
     ck->depth--;
     ck->stopped = true;
-    struct diagnostic *d = diag_error(ck->diag, node->span, "limit-recursion", "more than %u templates within each other (the limit `recursion`)", ck->input->limits.recursion);
+    struct diagnostic *d = diag_error(ck->diag, span, "limit-recursion", "more than %u templates within each other (the limit `recursion`)", ck->input->limits.recursion);
     diag_help(ck->diag, d, "end it by a `when`, or raise the limit: `--limit recursion=N`");
     return false;
 }
 
-static bool count_step(struct checker *ck, const struct node *node) {
+/* What a file writes out is bounded by its size: only what is repeated counts. */
+bool place_count_step(struct checker *ck, const struct node *node) {
     if (ck->stopped) return false;
+    if (ck->depth == 0 && !ck->scope) return true;
     if (++ck->steps <= ck->input->limits.steps) return true;
     ck->stopped = true;
     struct diagnostic *d = diag_error(ck->diag, node->span, "limit-steps", "more than %zu objects and turns of loops (the limit `steps`)", ck->input->limits.steps);
@@ -44,6 +46,16 @@ void place_list(struct checker *ck, const struct node *list) {
         return;
     }
     for (const struct node *item = n->first; item && !ck->stopped; item = item->next) place_item(ck, item);
+}
+
+void place_members(struct checker *ck, int kind, int key, const struct node *list) {
+    const struct surrounding outer = ck->around;
+    struct arena *arena = ck->arena;
+    ck->around = (struct surrounding){&grammar_kinds[kind], &grammar_kinds[kind].keys[key]};
+    ck->arena = &ck->memory->scratch; /* each object leaves nothing behind */
+    place_list(ck, list);
+    ck->arena = arena;
+    ck->around = outer;
 }
 
 /* ---- Templates ---- */
@@ -109,14 +121,15 @@ static bool bind_arguments(struct checker *ck, const struct node *parameters, co
         const char *name = node_resolve(p)->text;
         const struct node *given = with ? node_get(with, name) : NULL;
         ck->scope = given ? here : arguments;
-        good &= scope_bind(ck, name, given ? given : place_default(p->next), &bindings[arguments->count]);
+        const struct node *value = given ? given : place_default(p->next);
+        good &= scope_bind(ck, name, value, &bindings[arguments->count]) && define_in_range(ck, name, p->next, value);
         ck->scope = here;
         arguments->count++;
     }
     return good;
 }
 
-/* What the objects of the use depend on. False: on more than can be told. */
+/* What the objects of the use depend on. False: on more than can be told, *hash is of the template. */
 static bool use_contents(const struct definition *template, const struct scope *arguments, struct hash *hash) {
     hash_begin(hash);
     hash_integer(hash, template->number);
@@ -133,6 +146,8 @@ static bool use_contents(const struct definition *template, const struct scope *
             hash_integer(hash, n->count);
             hash_bytes(hash, n->text, n->count);
         } else {
+            hash_begin(hash);
+            hash_integer(hash, template->number);
             return false;
         }
     }
@@ -142,15 +157,15 @@ static bool use_contents(const struct definition *template, const struct scope *
 static void open_template(struct checker *ck, const struct object_value *object, const struct definition *template, const struct scope *arguments) {
     const struct lang_sink *sink = ck->input->sink;
     struct hash contents;
-    const bool known = use_contents(template, arguments, &contents);
-    if (!place_descend(ck, template->node)) return;
+    const bool exact = use_contents(template, arguments, &contents);
+    if (!place_descend(ck, object_span(object, KEY_OBJECT_USE))) return;
     struct use use = {{object_span(object, KEY_OBJECT_USE), use_text, ck->diag->frame}, template->name, arguments};
     const struct scope *outer = ck->scope;
     ck->scope = arguments;
     ck->diag->frame = &use.frame;
-    bool again = is_live(ck) && sink->open_use(sink->context, object, known ? &contents : NULL) == LANG_USE_READ;
+    bool again = is_live(ck) && sink->open_use(sink->context, object, &contents, exact) == LANG_USE_READ;
     while (again) {
-        place_list(ck, values_of(template->object, KEY_TEMPLATE_OBJECTS));
+        place_members(ck, KIND_TEMPLATE, KEY_TEMPLATE_OBJECTS, values_of(template->object, KEY_TEMPLATE_OBJECTS));
         again = sink->close_use(sink->context) && is_live(ck);
     }
     ck->diag->frame = use.frame.outer;
@@ -179,7 +194,7 @@ static void place_group(struct checker *ck, const struct object_value *object) {
     const struct lang_sink *sink = ck->input->sink;
     const bool live = is_live(ck);
     if (live) sink->open_group(sink->context, object);
-    place_list(ck, object->fields[KEY_OBJECT_GROUP]->node);
+    place_members(ck, KIND_OBJECT, KEY_OBJECT_GROUP, object->fields[KEY_OBJECT_GROUP]->node);
     if (live) sink->close_group(sink->context);
 }
 
@@ -206,7 +221,7 @@ static void rehearse(struct checker *ck, const struct node *node) {
 /* The object as it is in this turn. */
 static void place_turn(struct checker *ck, void *context) {
     const struct node *node = context, *n = node_resolve(node), *when = node_get(n, "when");
-    if (!count_step(ck, node)) return;
+    if (!place_count_step(ck, node)) return;
     const struct arena_mark before = arena_mark(ck->arena);
     bool holds = true;
     const enum quantity_result known = when && !node_is_null(when) ? loop_condition(ck, when, &holds) : QUANTITY_OK;
@@ -223,10 +238,13 @@ static void place_turn(struct checker *ck, void *context) {
 static bool place_variable(struct checker *ck, const struct node *node) {
     const struct binding *b = scope_stands_for(ck, node);
     if (!b || b->kind == BINDING_UNKNOWN) return b != NULL;
-    if (!place_descend(ck, node)) return true;
+    if (!place_descend(ck, node->span)) return true;
     const struct scope *outer = ck->scope;
+    const struct diag_frame frame = scope_frame(ck, node);
     ck->scope = b->scope;
+    ck->diag->frame = &frame;
     place_list(ck, b->node);
+    ck->diag->frame = frame.outer;
     ck->scope = outer;
     ck->depth--;
     return true;
@@ -240,7 +258,9 @@ void place_item(struct checker *ck, const struct node *node) {
         return;
     }
     const struct node *loop = n->kind == NODE_MAPPING ? node_get(n, "for") : NULL;
-    if (n->kind != NODE_MAPPING) report_no_mapping(ck, object_kind(), node);
+    const struct binding *b = n->kind == NODE_SCALAR && !n->quoted ? scope_find(ck, n->text) : NULL;
+    if (b) diag_error(ck->diag, node->span, "not-a-mapping", "expected an object, found %s", found_quantity(ck, node, &b->quantity));
+    else if (n->kind != NODE_MAPPING) report_no_mapping(ck, object_kind(), node);
     else if (!loop || node_is_null(loop)) place_turn(ck, (void *)node);
     else loop_run(ck, loop, place_turn, (void *)node);
 }

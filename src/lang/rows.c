@@ -70,7 +70,11 @@ static enum quantity_result read_vector(struct checker *ck, const struct grammar
     const enum quantity_result result = scope_quantity(ck, key->name, node, &q);
     if (result == QUANTITY_UNKNOWN) memcpy(v, key->value, sizeof key->value);
     if (result != QUANTITY_OK) return result;
-    if (q.count != 3 && (q.count != 1 || key->type != GRAMMAR_FACTORS)) return QUANTITY_NONE;
+    if (q.count != 3 && (q.count != 1 || key->type != GRAMMAR_FACTORS)) {
+        if (n->kind == NODE_SCALAR && scalar_is_number(n->text)) return QUANTITY_NONE;
+        diag_error(ck->diag, node->span, "not-a-row", "`%s`: expected [x, y, z], found %s", key->name, found_quantity(ck, node, &q));
+        return QUANTITY_WRONG;
+    }
     for (unsigned i = 0; i < 3; i++) v[i] = q.v[q.count == 3 ? i : 0];
     return QUANTITY_OK;
 }

@@ -89,33 +89,48 @@ static const char *wanted_number(const struct grammar_key *key) {
     return key->type == GRAMMAR_INTEGER || key->type == GRAMMAR_SIZE ? "a whole number" : "a number";
 }
 
-static void offer_name(void *to, const char *name) { spelling_offer(to, name); }
+struct variables {
+    struct arena *arena;
+    struct spelling spelling;
+    const char *all;
+};
 
-static void help_variable(struct checker *ck, struct diagnostic *d, const char *text) {
-    struct spelling s = spelling_begin(text);
+static void offer_name(void *to, const char *name) {
+    struct variables *v = to;
+    spelling_offer(&v->spelling, name);
+    if (strlen(v->all) < 80) v->all = arena_format(v->arena, "%s%s%s", v->all, *v->all ? ", " : "", name);
+}
+
+void scalar_help_variable(struct checker *ck, struct diagnostic *d, const char *text) {
+    struct variables v = {ck->arena, spelling_begin(text), ""};
     const struct expr_scope scope = scope_names(ck);
-    scope.names(scope.context, offer_name, &s);
-    if (s.best) diag_help(ck->diag, d, "did you mean `%s`?", s.best);
+    scope.names(scope.context, offer_name, &v);
+    if (scope_needs_animation(ck, text)) diag_help(ck->diag, d, "for `frame`, `t` and `time` add `animation: {frames: 24}`");
+    else if (v.spelling.best) diag_help(ck->diag, d, "did you mean `%s`?", v.spelling.best);
+    else if (*v.all) diag_note(ck->diag, d, "the variables here: %s", v.all);
 }
 
 static void help_scalar(struct checker *ck, struct diagnostic *d, const char *text) {
     const char *what = NULL, *mended = mend_lookalike(ck, text, &what);
     if (mended) diag_help(ck->diag, d, "it has %s in it: did you mean %s?", what, mended);
     else if (help_base(ck, d, text) || help_unit(ck, d, text)) return;
-    else if (scope_is_name(text)) help_variable(ck, d, text);
     else if (spelling_distance(text, ".inf") <= 1 || spelling_distance(text, ".nan") <= 1 || spelling_distance(text, "-.inf") <= 1)
         diag_help(ck->diag, d, "a number is finite");
+    else if (scope_is_name(text)) scalar_help_variable(ck, d, text);
 }
 
-static void report_no_number(struct checker *ck, const struct grammar_key *key, const struct node *node) {
+/* `value`: what the node is instead; NULL: it has none. */
+static void report_no_number(struct checker *ck, const struct grammar_key *key, const struct node *node, const struct quantity *value) {
     if (only_counted(ck, node->span)) return;
     const struct node *n = node_resolve(node);
     struct diagnostic *d = diag_error(ck->diag, node->span, "not-a-number", "`%s`: expected %s, found %s", key->name,
-                                      wanted_number(key), found_text(ck, node));
+                                      wanted_number(key), value ? found_quantity(ck, node, value) : found_text(ck, node));
     if (n->kind == NODE_SEQUENCE && n->count == 3)
         diag_note(ck->diag, d, "one number serves all three axes here; stretch the object by `scale` in its `transform`");
     if (n->kind == NODE_SEQUENCE && n->count == 1) diag_help(ck->diag, d, "remove the brackets");
-    if (n->kind == NODE_SCALAR && n->count <= 100) help_scalar(ck, d, n->text);
+    if (n->kind == NODE_SCALAR && n->count <= 100 && !value) help_scalar(ck, d, n->text);
+    if (n->kind == NODE_MAPPING && !value && ck->animation) diag_help(ck->diag, d, "values over time are written {keys: {1: 0, 24: 1}}");
+    if (value && value->count == 3 && n->kind == NODE_SCALAR) diag_help(ck->diag, d, "take a part of it: .x, .y, .z, .r, .g or .b, or its length(v)");
 }
 
 /* A plain decimal: exact where the digits are few enough that their product with a power of ten rounds once
@@ -170,10 +185,11 @@ static enum quantity_result read_number(struct checker *ck, const struct grammar
     struct quantity q;
     if (n->kind == NODE_SCALAR && scalar_number(ck, n->text, out)) return QUANTITY_OK;
     if (n->kind == NODE_SCALAR && scalar_is_number(n->text)) return report_bad_number(ck, key, node);
-    enum quantity_result result = n->kind == NODE_SEQUENCE ? QUANTITY_NONE : scope_quantity(ck, key->name, node, &q);
+    const bool truth = n->kind == NODE_SCALAR && (strcmp(n->text, "true") == 0 || strcmp(n->text, "false") == 0);
+    enum quantity_result result = n->kind == NODE_SEQUENCE || truth ? QUANTITY_NONE : scope_quantity(ck, key->name, node, &q);
     if (result == QUANTITY_OK && q.count == 1) *out = q.v[0];
     else if (result == QUANTITY_OK || result == QUANTITY_NONE) {
-        report_no_number(ck, key, node);
+        report_no_number(ck, key, node, result == QUANTITY_OK ? &q : NULL);
         result = QUANTITY_WRONG;
     }
     return result;
@@ -188,6 +204,7 @@ static bool take_default(const struct checker *ck, const struct grammar_key *key
 static const char *range_text(struct checker *ck, const struct grammar_key *key) {
     const char *unit = key->unit ? arena_format(ck->arena, " %s", key->unit) : "";
     if (key->has_max && key->max == key->min) return arena_format(ck->arena, "%.15g%s", key->min, unit);
+    if (key->has_max && !key->has_min) return arena_format(ck->arena, "%.15g%s or less", key->max, unit);
     if (key->has_max && key->above) return arena_format(ck->arena, "over %.15g, up to %.15g%s", key->min, key->max, unit);
     if (key->has_max) return arena_format(ck->arena, "%.15g to %.15g%s", key->min, key->max, unit);
     return arena_format(ck->arena, key->above ? "over %.15g" : "%.15g or more", key->min);
@@ -232,6 +249,18 @@ bool check_integer(struct checker *ck, const struct grammar_key *key, const stru
 
 /* ---- Words ---- */
 
+bool scalar_help_truth(struct checker *ck, struct diagnostic *d, const char *word) {
+    static const char *const words[][2] = {{"yes", "true"}, {"on", "true"},   {"y", "true"},    {"1", "true"},
+                                           {"no", "false"}, {"off", "false"}, {"n", "false"},   {"0", "false"},
+                                           {"true", "true"}, {"false", "false"}};
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
+        if (spelling_distance(word, words[i][0]) != 0) continue;
+        diag_help(ck->diag, d, "write `%s`", words[i][1]);
+        return true;
+    }
+    return false;
+}
+
 /* 0 and 1 are no booleans as they stand: they were meant to be words. */
 static bool is_written_number(const struct node *n) { return n->kind == NODE_SCALAR && scalar_is_number(n->text); }
 
@@ -250,11 +279,7 @@ bool check_boolean(struct checker *ck, const struct grammar_key *key, const stru
         return true;
     }
     struct diagnostic *d = diag_error(ck->diag, node->span, "not-a-boolean", "`%s`: expected true or false, found %s", key->name, found_text(ck, node));
-    static const char *const words[][2] = {{"yes", "true"}, {"on", "true"},   {"y", "true"},    {"1", "true"},
-                                           {"no", "false"}, {"off", "false"}, {"n", "false"},   {"0", "false"},
-                                           {"true", "true"}, {"false", "false"}};
-    for (size_t i = 0; n->kind == NODE_SCALAR && i < sizeof words / sizeof *words; i++)
-        if (spelling_distance(n->text, words[i][0]) == 0) diag_help(ck->diag, d, "write `%s`", words[i][1]);
+    if (n->kind == NODE_SCALAR) scalar_help_truth(ck, d, n->text);
     return false;
 }
 

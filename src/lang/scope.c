@@ -16,36 +16,57 @@ bool scope_is_name(const char *text) {
 /* ---- Finding ---- */
 
 /* What runs during an animation: `frame`, `t` from 0 to just under 1, `time` in seconds. */
-static const struct binding *find_moving(struct checker *ck, const char *name) {
-    static const char *const names[] = {"frame", "t", "time"};
+static const char *const moving[] = {"frame", "t", "time"};
+
+static int which_moving(const char *name) {
     int which = 0;
-    while (which < 3 && strcmp(name, names[which]) != 0) which++;
+    while (which < 3 && strcmp(name, moving[which]) != 0) which++;
+    return which;
+}
+
+bool scope_needs_animation(const struct checker *ck, const char *name) { return !ck->animation && which_moving(name) < 3; }
+
+static const struct binding *find_moving(struct checker *ck, const char *name) {
+    const int which = which_moving(name);
     if (which == 3 || !ck->animation) return NULL;
     const double frames = object_number(ck->animation, KEY_ANIMATION_FRAMES);
     const double fps = object_number(ck->animation, KEY_ANIMATION_FPS), since = (double)ck->input->frame - 1.0;
     const double values[] = {since + 1.0, since / frames, since / fps};
     struct binding *b = arena_alloc(ck->arena, sizeof *b);
-    *b = (struct binding){.name = names[which], .quantity = {1, {values[which]}}};
+    *b = (struct binding){.name = moving[which], .quantity = {1, {values[which]}}};
     ck->moved = true;
     return b;
 }
 
-static bool is_moving(const char *name) {
-    return strcmp(name, "frame") == 0 || strcmp(name, "t") == 0 || strcmp(name, "time") == 0;
-}
-
 /* Whether a name that is not there yet can be that of a parameter, or of the animation. */
-static bool may_come(const char *name) { return is_moving(name) || !define_name_taken(name); }
+static bool may_come(const char *name) { return which_moving(name) < 3 || !define_name_taken(name); }
 
-const struct binding *scope_find(struct checker *ck, const char *name) {
+static const struct binding *find(struct checker *ck, const char *name) {
     for (const struct scope *s = ck->scope; s; s = s->outer)
         for (unsigned i = s->count; i-- > 0;)
             if (strcmp(s->bindings[i].name, name) == 0) return &s->bindings[i];
     struct parameter *parameter = table_find(&ck->parameters, name);
     if (parameter) return define_parameter(ck, parameter);
-    const struct binding *moving = find_moving(ck, name);
-    if (!moving && ck->provisional && may_come(name)) ck->waiting = true;
-    return moving;
+    const struct binding *found = find_moving(ck, name);
+    if (!found && ck->provisional && may_come(name)) ck->waiting = true;
+    return found;
+}
+
+/* In a rehearsal no variable has a value: it may be of a turn that there is not. */
+const struct binding *scope_find(struct checker *ck, const char *name) {
+    static const struct binding unknown = {.name = "", .kind = BINDING_UNKNOWN};
+    const struct binding *b = find(ck, name);
+    return b && ck->rehearsing ? &unknown : b;
+}
+
+static const char *frame_text(struct arena *arena, const struct diag_frame *frame) {
+    (void)arena;
+    (void)frame;
+    return "it is used here";
+}
+
+struct diag_frame scope_frame(struct checker *ck, const struct node *node) {
+    return (struct diag_frame){node->span, frame_text, ck->diag->frame};
 }
 
 const struct binding *scope_stands_for(struct checker *ck, const struct node *node) {
@@ -60,13 +81,13 @@ const struct binding *scope_stands_for(struct checker *ck, const struct node *no
 static enum expr_found find_quantity(void *context, const char *name, struct quantity *out) {
     struct checker *ck = context;
     const struct binding *b = scope_find(ck, name);
-    if (!b) return ck->waiting ? EXPR_LATER : EXPR_MISSING;
+    if (!b) return ck->waiting || ck->variables_lost ? EXPR_LATER : EXPR_MISSING;
     if (b->kind == BINDING_UNKNOWN) return EXPR_LATER;
     if (b->kind == BINDING_QUANTITY) {
         *out = b->quantity;
         return EXPR_FOUND;
     }
-    if (!place_descend(ck, b->node)) return EXPR_LATER;
+    if (!place_descend(ck, b->node->span)) return EXPR_LATER;
     const struct scope *outer = ck->scope;
     ck->scope = b->scope;
     const enum quantity_result result = scope_quantity(ck, name, b->node, out);
@@ -81,9 +102,7 @@ static void list_names(void *context, void (*each)(void *to, const char *name), 
         for (unsigned i = s->count; i-- > 0;) each(to, s->bindings[i].name);
     for (const struct parameter *p = ck->first_parameter; p; p = p->next) each(to, p->name);
     if (!ck->animation) return;
-    each(to, "frame");
-    each(to, "t");
-    each(to, "time");
+    for (int i = 0; i < 3; i++) each(to, moving[i]);
 }
 
 struct expr_scope scope_names(struct checker *ck) { return (struct expr_scope){ck, find_quantity, list_names}; }
@@ -107,9 +126,19 @@ static struct span span_within(const struct node *n, size_t offset, size_t lengt
     return span;
 }
 
+/* In `{center: max(1, 2)}` YAML ends the value at the comma. */
+static bool is_cut_by_comma(const struct node *n, const struct expr_error *error) {
+    const size_t end = n->span.source ? source_offset(n->span) + n->count : 0;
+    return !n->quoted && error->offset < n->count && strchr("([", n->text[error->offset]) && end < n->span.source->size &&
+           n->span.source->text[end] == ',';
+}
+
 static enum quantity_result report(struct checker *ck, const char *what, const struct node *n, const struct expr_error *error) {
     struct diagnostic *d = diag_error(ck->diag, span_within(n, error->offset, error->length), error->code, "`%s`: %s", what, error->message);
-    if (error->help) diag_help(ck->diag, d, "%s", error->help);
+    if (is_cut_by_comma(n, error)) diag_help(ck->diag, d, "a comma ends the value here: put it all into quotes, or a list into [ ]");
+    else if (strcmp(error->code, "unknown-variable") == 0 && scope_needs_animation(ck, arena_text(ck->arena, n->text + error->offset, error->length)))
+        diag_help(ck->diag, d, "for `frame`, `t` and `time` add `animation: {frames: 24}`");
+    else if (error->help) diag_help(ck->diag, d, "%s", error->help);
     return QUANTITY_WRONG;
 }
 
@@ -126,7 +155,10 @@ static const struct expr *parse(struct checker *ck, const struct node *n, struct
 /* Whether somebody who wrote this meant to compute something. */
 static bool looks_computed(const struct node *n) {
     if (n->count > 0 && n->text[0] == '#') return false;
-    return strpbrk(n->text, "*/()<>?^=&|[%") || strstr(n->text, " + ") || strstr(n->text, " - ");
+    if (n->text[strspn(n->text, "+-.0123456789 ")] == '%' && n->text[n->count - 1] == '%') return false; /* a percentage */
+    for (const char *c = n->text; *c; c++)
+        if (iscntrl((unsigned char)*c)) return false;
+    return strpbrk(n->text, "*/()<>?^=&|[%") || strstr(n->text, " +") || strstr(n->text, " -");
 }
 
 static enum quantity_result rehearse(struct checker *ck, const struct expr *expr, const struct expr_scope *scope,

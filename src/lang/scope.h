@@ -32,6 +32,12 @@ struct scope {
 /* The variable of that name, the innermost; NULL: none, or (ck->waiting is then set) not known yet. */
 const struct binding *scope_find(struct checker *ck, const char *name);
 
+/* Whether it is a variable that only an animation has, and there is none. */
+bool scope_needs_animation(const struct checker *ck, const char *name);
+
+/* What is told of something wrong in what the node, a variable, stands for. */
+struct diag_frame scope_frame(struct checker *ck, const struct node *node);
+
 /* What a scalar that is a variable's name alone stands for, if that is a node or unknown: NULL else. */
 const struct binding *scope_stands_for(struct checker *ck, const struct node *node);
 

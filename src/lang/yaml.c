@@ -39,7 +39,7 @@ struct reader {
 
 struct node *node_get(const struct node *mapping, const char *key) {
     for (struct node *k = mapping->first; k; k = k->next->next)
-        if (k->kind == NODE_SCALAR && strcmp(k->text, key) == 0) return k->next;
+        if (k->kind == NODE_SCALAR && k->text[0] == key[0] && strcmp(k->text, key) == 0) return k->next;
     return NULL;
 }
 
@@ -269,6 +269,13 @@ static bool merge_all(struct reader *rd, struct node *mapping) {
 
 static struct node *read_node(struct reader *rd);
 
+/* An item that anchors name stays. */
+static void settle(struct node *node) {
+    node->passing = false;
+    if (node->kind != NODE_SEQUENCE && node->kind != NODE_MAPPING) return;
+    for (struct node *child = node->first; child; child = child->next) settle(child);
+}
+
 /* The items of the streamed list, of which those stay that its reader wants to keep or that anchors
  * name; the current event starts the list. */
 static bool read_streamed(struct reader *rd, struct node *list) {
@@ -288,7 +295,9 @@ static bool read_streamed(struct reader *rd, struct node *list) {
         const bool done = !rd->is_beyond && stream->item(stream->context, item);
         if (done && rd->anchor_count == anchors) {
             arena_release(rd->arena, before);
-        } else if (!done) {
+        } else if (done) {
+            settle(item);
+        } else {
             *tail = item;
             tail = &item->next;
             list->count++;

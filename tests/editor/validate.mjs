@@ -18,9 +18,16 @@ const CATCHABLE = new Set(`unknown-key missing-key no-value one-of-them no-alter
 // Scenes whose mistakes have such codes and still cannot be seen, with the reason.
 const EXCEPTIONS = {
     color_unknown: "a word may be the name of a parameter",
-    key_later_expression: "the loader has no expressions yet",
+    expr_names: "a word may be the name of a parameter",
+    expr_values: "only the loader knows what an expression gives",
+    include_mistakes: "they are in the included file",
+    include_not_mapping: "the included file is none",
+    keyframes_still: "a word may be the name of a parameter; that keyframes need an animation, no kind of the definition says",
     number_octal: "0x1f and 0o17 are numbers to YAML, and 010 is ten",
     number_text: "a word may be the name of a parameter",
+    objects_variable: "what an argument must be, the template tells where it uses it",
+    param_range_template: "values of parameters and their ranges, which a schema cannot compare",
+    param_value: "only the loader knows what a parameter stands for",
     point_words: "a word may be the name of a parameter",
     text_long: "a word may be the name of a parameter",
     text_long_utf8: "a word may be the name of a parameter",
@@ -52,7 +59,7 @@ verdict("the language's example validates", !problem(example), problem(example))
 for (const file of yamlFiles("tests/editor/rejected"))
     verdict(`${file} does not validate`, problem(fs.readFileSync(file, "utf8")) !== null);
 
-for (const file of yamlFiles("tests/errors")) {
+for (const file of yamlFiles("tests/errors").filter((file) => path.dirname(file) === "tests/errors")) { // not what they include
     const found = codes(fs.readFileSync(file.replace(/\.yaml$/, ".txt"), "utf8"));
     const wrong = problem(fs.readFileSync(file, "utf8"));
     const name = path.basename(file, ".yaml");

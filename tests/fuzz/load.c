@@ -30,7 +30,8 @@ static void check_messages(const struct monge_diagnostics *diag) {
 static void load(const uint8_t *bytes, size_t size, const struct monge_limits *limits) {
     struct monge_diagnostics *diag = monge_diagnostics_new();
     if (!diag) return;
-    struct monge_scene *scene = monge_load_memory("fuzz", (const char *)bytes, size, limits, diag);
+    const struct monge_load_options options = {.limits = *limits, .untrusted = true};
+    struct monge_scene *scene = monge_load_memory("fuzz/scene", (const char *)bytes, size, &options, diag);
     const bool wrong = monge_diagnostics_errors(diag) + monge_diagnostics_failures(diag) > 0;
     if (!scene != wrong) abort(); /* a scene, or a reason */
     if (scene) {
@@ -43,8 +44,8 @@ static void load(const uint8_t *bytes, size_t size, const struct monge_limits *l
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size) {
-    load(bytes, size, &(struct monge_limits){.memory_bytes = 64 << 20, .values = 200000, .nesting = 50});
-    load(bytes, size, &(struct monge_limits){.memory_bytes = 140000, .values = 300, .nesting = 6});
+    load(bytes, size, &(struct monge_limits){.memory_bytes = 64 << 20, .values = 200000, .nesting = 50, .recursion = 50, .steps = 20000, .objects = 5000});
+    load(bytes, size, &(struct monge_limits){.memory_bytes = 300000, .values = 300, .nesting = 6, .recursion = 4, .steps = 30, .objects = 10});
     return 0;
 }
 

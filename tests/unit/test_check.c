@@ -3,24 +3,31 @@
 #include <locale.h>
 #include <string.h>
 
-#include "lang/file.h"
-#include "lang/lang.h"
-#include "near.h"
+#include "loading.h"
 
 struct checked {
-    struct arena arena;
+    struct lang_memory memory;
     struct diagnostics diag;
-    struct object_value *file;
+    struct collected objects;
+    const struct object_value *file;
 };
 
+/* Beside what was checked before. */
+static void check_after(struct checked *c, const char *text) {
+    const struct lang_sink sink = collecting_sink(&c->objects);
+    struct lang_input input = loading_input(&c->memory, text, &sink);
+    input.limits.values = 10000000;
+    c->file = lang_read(&c->memory, &c->diag, &input).file;
+}
+
 static void check_text_as_scene(struct checked *c, const char *text) {
-    const struct lang_limits limits = {100, 100000};
     *c = (struct checked){0};
-    c->file = lang_read(&c->arena, &c->diag, file_from_memory(&c->arena, "t", text, strlen(text)), &limits);
+    check_after(c, text);
 }
 
 static void checked_free(struct checked *c) {
-    arena_free(&c->arena);
+    lang_memory_free(&c->memory);
+    arena_free(&c->objects.arena);
     diag_free(&c->diag);
 }
 
@@ -45,15 +52,13 @@ static void fail_with_messages(const struct checked *c, const char *text) {
 #define SIZE "image: {size: @}\nscene: []"
 #define AMOUNT "scene: [{sphere: {}, material: {reflection: @}}]"
 
-static const struct object_value *item(const struct object_value *file, int key) { return object_list(file, key).items[0]; }
-
 /* The value in the form above, as three numbers. */
-static vec3 value_in(const struct object_value *file, const char *form) {
-    if (strcmp(form, COLOR) == 0) return object_vec3(object_object(item(file, KEY_FILE_LIGHTS), KEY_LIGHT_AMBIENT), KEY_AMBIENT_LIGHT_COLOR);
+static vec3 value_in(const struct checked *c, const char *form) {
+    const struct object_value *file = c->file, *node = c->objects.items[0];
+    if (strcmp(form, COLOR) == 0) return object_vec3(object_object(object_list(file, KEY_FILE_LIGHTS).items[0], KEY_LIGHT_AMBIENT), KEY_AMBIENT_LIGHT_COLOR);
     if (strcmp(form, SIZE) == 0) return object_vec3(object_object(file, KEY_FILE_IMAGE), KEY_IMAGE_SIZE);
     if (strcmp(form, INTEGER) == 0) return vec3_all(object_number(object_object(file, KEY_FILE_IMAGE), KEY_IMAGE_SAMPLES));
     if (strcmp(form, CHOICE) == 0) return vec3_all(object_choice(object_object(file, KEY_FILE_RENDER), KEY_RENDER_SHADING));
-    const struct object_value *node = item(file, KEY_FILE_SCENE);
     if (strcmp(form, NUMBER) == 0) return vec3_all(object_number(object_object(node, KEY_OBJECT_SQUARE), KEY_SQUARE_SIZE));
     if (strcmp(form, SIGNED) == 0) return vec3_all(object_number(object_object(node, KEY_OBJECT_QUADRIC), KEY_QUADRIC_XX));
     if (strcmp(form, BOOLEAN) == 0) return vec3_all(object_choice(object_object(node, KEY_OBJECT_CONE), KEY_CONE_OPEN));
@@ -76,8 +81,8 @@ static struct row {
     {NUMBER, "1.7976931348623157e308", {1.7976931348623157e308, 1.7976931348623157e308, 1.7976931348623157e308}},
     {NUMBER, "0", WRONG}, {NUMBER, "-1", WRONG}, {NUMBER, "-0.0", WRONG}, {NUMBER, "1e-400", WRONG}, {NUMBER, "1e309", WRONG},
     {SIGNED, ".", WRONG}, {SIGNED, "+", WRONG}, {SIGNED, "'-'", WRONG}, {SIGNED, "'-.'", WRONG}, {SIGNED, "e5", WRONG}, {SIGNED, ".e5", WRONG}, {NUMBER, "1e", WRONG}, {NUMBER, "1e+", WRONG},
-    {NUMBER, "1.2.3", WRONG}, {NUMBER, "--1", WRONG}, {NUMBER, "0x10", WRONG}, {NUMBER, "0x1p3", WRONG}, {NUMBER, "inf", WRONG},
-    {NUMBER, "nan", WRONG}, {NUMBER, ".inf", WRONG}, {NUMBER, "1_000", WRONG}, {NUMBER, "010", WRONG}, {NUMBER, "' 1'", WRONG},
+    {NUMBER, "1.2.3", WRONG}, {NUMBER, "--1", {1, 1, 1}}, {NUMBER, "0x10", WRONG}, {NUMBER, "0x1p3", WRONG}, {NUMBER, "inf", WRONG},
+    {NUMBER, "nan", WRONG}, {NUMBER, ".inf", WRONG}, {NUMBER, "1_000", WRONG}, {NUMBER, "010", WRONG}, {NUMBER, "' 1'", {1, 1, 1}},
     {NUMBER, "1 2", WRONG}, {NUMBER, "true", WRONG}, {NUMBER, "[1]", WRONG}, {NUMBER, "{}", WRONG}, {NUMBER, "~", WRONG}, {NUMBER, "''", WRONG},
     {SIGNED, "-1", {-1, -1, -1}}, {SIGNED, "-.5e1", {-5, -5, -5}}, {SIGNED, "-0", {-0.0, -0.0, -0.0}}, {SIGNED, "-07", WRONG},
     {INTEGER, "1", {1, 1, 1}}, {INTEGER, "16", {16, 16, 16}}, {INTEGER, "4.0", {4, 4, 4}}, {INTEGER, "1e2", {100, 100, 100}}, {INTEGER, "65536", {65536, 65536, 65536}},
@@ -112,7 +117,7 @@ static void check_row(void **state) {
     const bool wrong = isnan(row->want.x);
     if (c.diag.errors != wrong || !c.file || c.file->failed != wrong) fail_with_messages(&c, text);
     if (!wrong) {
-        const vec3 got = value_in(c.file, row->form);
+        const vec3 got = value_in(&c, row->form);
         assert_near(got.x, row->want.x, 1e-15 * fabs(row->want.x), "x");
         assert_near(got.y, row->want.y, 1e-15 * fabs(row->want.y), "y");
         assert_near(got.z, row->want.z, 1e-15 * fabs(row->want.z), "z");
@@ -156,8 +161,9 @@ static struct scene_row {
     {"three shapes in one object", "scene: [{sphere: {}, box: {}, cone: {}}]", 2, 0},
     {"no shape", "scene: [{}]", 1, 0},
     {"an unknown shape is reported once", "scene: [{torus: {}}]", 1, 0},
-    {"a later word", "scene: [{use: x}]", 1, 0},
-    {"later words", "params: {}\nscene: [{for: x, when: y, sphere: {}}]", 3, 0},
+    {"a later word", "scene: [{ellipsoid: {}}]", 1, 0},
+    {"later words", "scene: [{saddle: {}}, {frustum: {}}]", 2, 0},
+    {"a loop without variables", "scene: [{for: x, when: y, sphere: {}}]", 1, 0},
     {"both of two that exclude each other", "camera: {look_at: [0, 0, 1], direction: [0, 0, 1]}\nscene: []", 1, 0},
     {"an angle without an axis", "scene: [{sphere: {}, transform: {rotate: {angle: 3}}}]", 1, 0},
     {"an axis without an angle", "scene: [{sphere: {}, transform: {rotate: {axis: [1, 0, 0]}}}]", 1, 0},
@@ -184,7 +190,7 @@ static void every_value_keeps_its_place(void **state) {
     (void)state;
     struct checked c;
     check_text_as_scene(&c, "scene:\n  - sphere:\n      radius: 2\n    name: ball\n");
-    const struct object_value *node = item(c.file, KEY_FILE_SCENE), *sphere = object_object(node, KEY_OBJECT_SPHERE);
+    const struct object_value *node = c.objects.items[0], *sphere = object_object(node, KEY_OBJECT_SPHERE);
     const struct span radius = object_span(sphere, KEY_SPHERE_RADIUS), whole = object_span(sphere, KEY_SPHERE_CENTER);
     assert_int_equal(radius.line, 2);
     assert_int_equal(radius.column, 14);
@@ -203,13 +209,14 @@ static void every_value_keeps_its_place(void **state) {
 static void errors_of_an_earlier_load_are_not_those_of_this_one(void **state) {
     (void)state;
     struct checked c;
-    const char *good = "materials: {gold: {}}\nscene: []";
-    const struct lang_limits limits = {100, 100000};
     check_text_as_scene(&c, "scene: 5");
-    struct object_value *file = lang_read(&c.arena, &c.diag, file_from_memory(&c.arena, "u", good, strlen(good)), &limits);
-    assert_false(file->failed);
+    struct lang_memory first = c.memory;
+    c.memory = (struct lang_memory){0};
+    check_after(&c, "materials: {gold: {}}\nscene: []");
+    assert_false(c.file->failed);
     assert_int_equal(c.diag.errors, 1);
     assert_int_equal(c.diag.warnings, 1);
+    lang_memory_free(&first);
     checked_free(&c);
 }
 
@@ -223,7 +230,7 @@ static void a_point_is_a_point_in_every_locale(void **state) {
     struct checked c;
     check_text_as_scene(&c, "scene: [{square: {size: 12.75e1}}]");
     setlocale(LC_NUMERIC, "C");
-    assert_true(value_in(c.file, NUMBER).x == 127.5);
+    assert_true(value_in(&c, NUMBER).x == 127.5);
     checked_free(&c);
 }
 
@@ -238,13 +245,11 @@ static void mistakes_past_the_kept_ones_are_counted(void **state) {
     fputs("}]", out);
     fclose(out);
     struct checked c;
-    const struct lang_limits limits = {100, 10000000};
-    c = (struct checked){0};
-    c.file = lang_read(&c.arena, &c.diag, file_from_memory(&c.arena, "t", text, size), &limits);
+    check_text_as_scene(&c, text);
     assert_int_equal(c.diag.errors, 200000);
     assert_int_equal(c.diag.kept, DIAG_MAX_KEPT);
     assert_true(c.diag.arena.total < 300000);
-    assert_true(c.arena.total < 100 << 20); /* the nodes, and no texts */
+    assert_true(c.memory.nodes.total < 100 << 20); /* the nodes, and no texts */
     checked_free(&c);
     free(text);
 }

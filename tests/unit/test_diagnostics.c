@@ -7,7 +7,7 @@
 
 #define CODE(code) "\"code\": \"" code "\""
 
-static const struct monge_limits small = {.file_bytes = 10000, .memory_bytes = 140000};
+static const struct monge_load_options small = {.limits = {.file_bytes = 10000, .memory_bytes = 300000}};
 
 /* Valid until the next call. */
 static const char *document(const struct monge_diagnostics *diag, enum monge_format format) {
@@ -49,6 +49,31 @@ static void check_file_limit(void **state) {
     struct monge_diagnostics *diag = monge_diagnostics_new();
     assert_null(monge_load_file("/dev/zero", &small, diag));
     assert_non_null(strstr(document(diag, MONGE_FORMAT_JSON), CODE("limit-file-bytes")));
+    monge_diagnostics_free(diag);
+}
+
+/* ---- What no scene by itself gives ---- */
+
+static void check_define(void **state) {
+    (void)state;
+    static const struct monge_define width = {"widht", "2"};
+    static const char text[] = "params: {width: 1}\nscene: [{sphere: {radius: width}}]";
+    struct monge_diagnostics *diag = monge_diagnostics_new();
+    assert_null(monge_load_memory("a", text, strlen(text), &(struct monge_load_options){.defines = &width, .define_count = 1}, diag));
+    const char *json = document(diag, MONGE_FORMAT_JSON);
+    assert_non_null(strstr(json, CODE("unknown-parameter")));
+    assert_non_null(strstr(json, "did you mean `width`?"));
+    assert_non_null(strstr(json, "\"severity\": \"error\""));
+    monge_diagnostics_free(diag);
+}
+
+static void check_untrusted(void **state) {
+    (void)state;
+    static const char text[] = "include: ../../dev/null\nscene: [{sphere: {}}]";
+    struct monge_diagnostics *diag = monge_diagnostics_new();
+    assert_null(monge_load_memory("/usr/bin/a.yaml", text, strlen(text), &(struct monge_load_options){.untrusted = true}, diag));
+    assert_non_null(strstr(document(diag, MONGE_FORMAT_JSON), CODE("include-outside")));
+    assert_int_equal(monge_diagnostics_errors(diag), 1);
     monge_diagnostics_free(diag);
 }
 
@@ -112,8 +137,9 @@ static void check_explain(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(check_memory_limit), cmocka_unit_test(check_file_limit), cmocka_unit_test(check_loads),
-        cmocka_unit_test(check_text),         cmocka_unit_test(check_codes),      cmocka_unit_test(check_explain),
+        cmocka_unit_test(check_memory_limit), cmocka_unit_test(check_file_limit), cmocka_unit_test(check_define),
+        cmocka_unit_test(check_untrusted),    cmocka_unit_test(check_loads),      cmocka_unit_test(check_text),
+        cmocka_unit_test(check_codes),        cmocka_unit_test(check_explain),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -288,7 +288,7 @@ static void make_text(void) {
 
 static char *format(struct arena *arena, struct diagnostics *diag, const char *bytes, size_t count,
                     size_t *formatted) {
-    static const struct lang_limits limits = {100, 1000000};
+    static const struct lang_limits limits = {.nesting = 100, .values = 1000000};
     return format_text(arena, diag, file_from_memory(arena, "t", bytes, count), &limits, formatted);
 }
 

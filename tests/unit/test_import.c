@@ -6,7 +6,7 @@
 #include "monge.h"
 #include "near.h"
 
-static const struct lang_limits limits = {100, 1000000};
+static const struct lang_limits limits = {.nesting = 100, .values = 1000000};
 
 /* The pixel of a scene of the book, linear. */
 static vec3 pixel_of(const char *book, uint32_t x, uint32_t y) {

@@ -39,7 +39,7 @@ static void set_begin(struct arena *arena, struct primitives *p, uint32_t room) 
 
 static void add_info(struct primitives *p, enum primitive_kind kind, uint32_t index, uint32_t *numbers, uint32_t material) {
     numbers[index] = p->count;
-    p->info[p->count++] = (struct primitive_info){primitive_ref_make(kind, index), material};
+    p->info[p->count++] = (struct primitive_info){.ref = primitive_ref_make(kind, index), .material = material};
 }
 
 static void add_sphere(struct primitives *p, vec3 center, double radius, uint32_t material) {
@@ -77,7 +77,7 @@ struct pair {
     struct occurrence which[ROOM]; /* by number of a primitive of `flat` */
 };
 
-static void scene_begin(struct pair *s, struct scene *scene) {
+static void begin_scene(struct pair *s, struct scene *scene) {
     *scene = (struct scene){.settings = {.width = 80, .height = 60, .samples = 1, .bits = 8, .depth = 5},
                             .two_sided = true,
                             .background = {{0.2, 0.3, 0.4}, {0.6, 0.5, 0.4}},
@@ -91,8 +91,8 @@ static void scene_begin(struct pair *s, struct scene *scene) {
 
 static struct pair *pair_begin(void) {
     struct pair *s = calloc(1, sizeof *s);
-    scene_begin(s, &s->instanced);
-    scene_begin(s, &s->flat);
+    begin_scene(s, &s->instanced);
+    begin_scene(s, &s->flat);
     return s;
 }
 
@@ -638,7 +638,7 @@ static void dark_scenes(void **state) {
         s->instanced.lights = l.scene.lights;
         s->instanced.light_count = l.scene.light_count;
         struct builder b = {.arena = &s->arena, .diag = &l.diag, .scene = &s->instanced};
-        lights_check(&b, l.file);
+        lights_check(&b, l.result.file);
         if (l.diag.warnings != rows[i].warnings) fail_msg("row %zu: %u warnings", i, l.diag.warnings);
         pair_end(s);
         unload(&l);
