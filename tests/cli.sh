@@ -327,10 +327,10 @@ scene:
   - sphere: {radius: a, center: v}
     material: {diffuse: tint}
   - box: {}
-    transform: [{scale: b}, {translate: [40, 1, 0]}]
+    transform: [{scale: b}, {translate: [12, 1, 0]}]
 YAML
 # literally NAME A B V TINT: the same scene with the values written in it
-literally() { printf 'scene:\n  - sphere: {radius: %s, center: %s}\n    material: {diffuse: "%s"}\n  - box: {}\n    transform: [{scale: %s}, {translate: [40, 1, 0]}]\n' "$2" "$4" "$5" "$3" >"$1.yaml"; }
+literally() { printf 'scene:\n  - sphere: {radius: %s, center: %s}\n    material: {diffuse: "%s"}\n  - box: {}\n    transform: [{scale: %s}, {translate: [12, 1, 0]}]\n' "$2" "$4" "$5" "$3" >"$1.yaml"; }
 literally literal 2 0.25 '[0, 1, 0]' tomato
 exits 0 render -q "${small[@]}" literal.yaml
 exits 0 render -q "${small[@]}" params.yaml -D a=2 --define b=0.25 '-Dv=[0, 1, 0]' --define=tint=tomato; no_err
@@ -514,10 +514,10 @@ exits 2 check one.yaml --limit file_bytes=10; err_has 'limit-file-bytes'
 exits 1 check one.yaml --limit nesting=1; err_has 'limit-nesting'
 exits 1 render wrong.yaml --limit objects=1 --limit values=3; err_has 'limit-values'
 exits 2 check one.yaml --limit memory_bytes=1; err_has 'limit-memory'
-{ echo 'scene:'; for i in 1 2 3 4 5 6; do echo '  - sphere: {}'; done; } >six.yaml
+{ echo 'scene:'; for i in 1 2 3 4 5 6; do echo "  - sphere: {center: [$((3 * i)), 0, 0]}"; done; } >six.yaml
 exits 1 check six.yaml --limit objects=5; err_has 'limit-objects'; exits 0 check six.yaml --limit objects=6
-printf 'scene: [{sphere: {center: [i, 0, 0]}, for: {i: 6}}]' >loop.yaml
-exits 1 check loop.yaml --limit steps=5; err_has 'limit-steps'; exits 0 check loop.yaml --limit steps=1k
+printf 'scene:\n  - sphere: {center: [3 * i, 0, 0]}\n    for: {i: {from: 1, to: 50}}\n' >loop.yaml
+exits 1 check loop.yaml --limit steps=20; err_has 'limit-steps'; exits 0 check loop.yaml --limit steps=1k
 exits 1 check one.yaml --limit pixels=1000; err_has 'one.yaml: a picture of 640x480 has more than 1000 pixels (the limit `pixels`)'; out_has '1 error'
 exits 1 render one.yaml --limit pixels=1k -o x.png; err_has 'the limit `pixels`'
 exits 2 render one.yaml --limit pixels=1k --size 100x100 -o x.png; err_has 'a picture of 100x100'

@@ -52,7 +52,8 @@ static bool same_instances(const struct instance *a, const struct instance *b, u
 static bool same_primitives(const struct primitives *a, const struct primitives *b) {
     return a->count == b->count && a->sphere_count == b->sphere_count && a->flat_count == b->flat_count &&
            a->quadric_count == b->quadric_count && a->instance_count == b->instance_count &&
-           same_bits(a->info, b->info, a->count * sizeof *a->info) &&
+           a->use_count == b->use_count && same_bits(a->info, b->info, a->count * sizeof *a->info) &&
+           same_bits(a->uses, b->uses, a->use_count * sizeof *a->uses) &&
            same_bits(a->spheres, b->spheres, a->sphere_count * sizeof *a->spheres) && same_flats(a->flats, b->flats, a->flat_count) &&
            same_quadrics(a->quadrics, b->quadrics, a->quadric_count) && same_instances(a->instances, b->instances, a->instance_count);
 }
