@@ -150,7 +150,7 @@ ok "there were functions" [ $functions -gt 30 ]
 exits 0 help presets; out_has '  glass '; out_has 'refraction: 0.9, index: 1.5'; no_err
 ok "presets fit 80 columns" [ -z "$(grep -E '.{81}' out)" ]
 presets=$(sed -n 's/^  \([a-z][a-z]*\) .*/\1/p' out)
-{ echo 'scene:'; printf '  - {sphere: {}, material: {preset: %s}}\n' $presets; } >presets.yaml
+n=0; { echo 'scene:'; for preset in $presets; do echo "  - {sphere: {center: [$((n++)), 5, 0]}, material: {preset: $preset}}"; done; } >presets.yaml
 exits 0 check presets.yaml; no_err
 ok "there were presets" [ "$(wc -l <presets.yaml)" -gt 15 ]
 exits 0 help language; out_has '  sphere '; out_has 'monge help presets'
