@@ -131,7 +131,10 @@ static bool may_be_seen(const struct examination *e, const struct wall walls[WAL
 
 static void help_look(const struct examination *e, struct diagnostic *d) {
     const box3 bounds = accel_extent(e->accel);
-    if (!box3_is_bounded(bounds)) return;
+    if (!box3_is_bounded(bounds)) {
+        diag_help(e->diag, d, "nothing has a middle to look at: give the camera an `eye` and a `look_at`");
+        return;
+    }
     const vec3 c = box3_center(bounds);
     const bool there = vec3_length(vec3_sub(c, e->view.eye)) > 1e-6 * vec3_length(vec3_sub(bounds.max, bounds.min));
     if (there) diag_help(e->diag, d, "`look_at: [%.3g, %.3g, %.3g]` is the middle of what there is", c.x, c.y, c.z);

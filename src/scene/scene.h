@@ -64,7 +64,7 @@ struct scene {
     uint32_t geometry_count;
     struct origins origins;              /* of primitives, and the files of all places below */
     struct material_info *material_info; /* of each material */
-    struct span camera_span;             /* of `look_at`, `direction` or `eye`, or what else there is; source NULL: none */
+    struct span camera_span;             /* of what says where it looks; else of the camera, or of the scene */
     struct span eye_span;                /* of the camera's eye where it has one */
     struct span *light_spans;            /* of each light's place or colour */
     const char **templates;              /* names, by number; NULL where not used */

@@ -93,6 +93,7 @@ void camera_build(struct builder *b, const struct object_value *file) {
     struct camera *camera = &b->scene->camera;
     const struct object_value *object = object_object(file, KEY_FILE_CAMERA);
     *camera = (struct camera){.up = {0, 1, 0}, .fov_deg = grammar_kinds[KIND_CAMERA].keys[KEY_CAMERA_FOV].value[0]};
+    b->scene->camera_span = object_span(file, object ? KEY_FILE_CAMERA : KEY_FILE_SCENE);
     if (!object) return;
     *camera = (struct camera){
         .projection = object_choice(object, KEY_CAMERA_PROJECTION) == CHOICE_CAMERA_PROJECTION_ORTHOGRAPHIC ? CAMERA_ORTHOGRAPHIC : CAMERA_PERSPECTIVE,
@@ -110,7 +111,7 @@ void camera_build(struct builder *b, const struct object_value *file) {
     };
     if (object->failed) return;
     const int looks = camera->has_direction ? KEY_CAMERA_DIRECTION : camera->has_look_at ? KEY_CAMERA_LOOK_AT : KEY_CAMERA_EYE;
-    b->scene->camera_span = object_span(object, looks);
+    if (object_has(object, looks)) b->scene->camera_span = object_span(object, looks);
     b->scene->eye_span = object_span(object, KEY_CAMERA_EYE);
     camera_check(b, object, camera);
     projection_check(b, object, camera);
