@@ -178,15 +178,23 @@ static bool check_value(struct checker *ck, const struct grammar_key *key, const
     ck->scope = b->scope;
     ck->diag->frame = &frame;
     const bool good = check_value(ck, key, b->node, out);
+    out->computed = true;
     ck->diag->frame = frame.outer;
     ck->scope = outer;
     ck->depth--;
     return good;
 }
 
+static bool node_is_number(const struct node *node) {
+    const struct node *n = node_resolve(node);
+    return n->kind == NODE_SCALAR && scalar_is_number(n->text);
+}
+
 static bool check_written(struct checker *ck, const struct grammar_key *key, const struct node *node, struct value *out) {
     switch (key->type) {
-    case GRAMMAR_NUMBER: return check_number(ck, key, node, &out->number);
+    case GRAMMAR_NUMBER:
+        out->computed = !node_is_number(node);
+        return check_number(ck, key, node, &out->number);
     case GRAMMAR_INTEGER: return check_integer(ck, key, node, &out->number);
     case GRAMMAR_BOOLEAN: return check_boolean(ck, key, node, &out->choice);
     case GRAMMAR_CHOICE: return check_choice(ck, key, node, &out->choice);

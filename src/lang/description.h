@@ -37,6 +37,7 @@ struct value {
         struct definition *definition; /* lang/: name */
     };
     bool is_object; /* a mapping stands where a colour might */
+    bool computed;  /* a number that is not written as such: by an expression, a variable or keyframes */
 };
 
 struct object_value {

@@ -171,7 +171,7 @@ static enum quantity_result rehearse(struct checker *ck, const struct expr *expr
 
 static enum quantity_result scalar_quantity(struct checker *ck, const char *what, const struct node *n, struct quantity *out) {
     struct expr_error error = {0};
-    if (n->count == 0 || (n->quoted && n->text[0] == '#')) return QUANTITY_NONE;
+    if (n->count == 0) return QUANTITY_NONE;
     const struct expr *expr = parse(ck, n, &error);
     if (!expr) return looks_computed(n) ? report(ck, what, n, &error) : QUANTITY_NONE;
     const struct expr_scope scope = scope_names(ck);
