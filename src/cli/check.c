@@ -21,15 +21,6 @@ static void print_verdict(const char *scene, const struct load *load) {
     streams_flush();
 }
 
-/* What is not wrong as a text, but would render wrong. */
-static void examine(struct loader *loader, struct load *load) {
-    if (!load->scene) return;
-    const unsigned warnings = monge_diagnostics_warnings(load->diag);
-    monge_scene_examine(load->scene, load->diag);
-    load->warnings += monge_diagnostics_warnings(load->diag) - warnings;
-    report_show(&loader->report, load->diag);
-}
-
 static void check_limits(const struct loader *loader, const char *scene, struct load *load) {
     if (!load->scene) return;
     const struct monge_settings settings = monge_scene_settings(load->scene);
@@ -42,7 +33,7 @@ static void check_limits(const struct loader *loader, const char *scene, struct 
 static enum status check_scene(struct loader *loader, const char *scene, const struct monge_define *defines, bool quiet) {
     struct load load = load_scene(loader, scene, defines, 0);
     check_limits(loader, scene, &load);
-    examine(loader, &load);
+    load_examine(loader, &load);
     const bool wanted = load.status != STATUS_YES || !quiet;
     char *with = sweep_describe(&loader->sweep, defines), *title = say_text("%s%s%s", scene, *with ? " with " : "", with);
     if (wanted && loader->report.format == MONGE_FORMAT_TEXT) print_verdict(title, &load);

@@ -1,47 +1,49 @@
 #include "cli/info.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 
-#include "cli/report.h"
+#include "cli/load.h"
 #include "cli/say.h"
 
-static struct monge_scene *load_outlined(const char *path, struct report *report, enum status *status) {
-    const struct monge_load_options options = {.outline = true};
-    struct monge_diagnostics *diag = report_open(report);
-    *status = STATUS_TROUBLE;
-    if (!diag) return NULL;
-    struct monge_scene *scene = monge_load_file(path, &options, diag);
-    if (scene) *status = STATUS_YES;
-    else if (monge_diagnostics_failures(diag) == 0) *status = STATUS_NO;
-    report_close(report, diag, true);
-    return scene;
+static enum status tell(struct loader *loader, const char *path, const struct monge_define *defines, enum monge_format format, bool titled) {
+    struct load load = load_scene(loader, path, defines, 0);
+    if (load.scene) {
+        char *with = sweep_describe(&loader->sweep, defines);
+        if (titled) printf("%s%s%s\n", path, *with ? " with " : "", with);
+        free(with);
+        if (!monge_scene_info(load.scene, format, stdout)) {
+            say_error("%s: no memory for %zu primitives", path, monge_scene_primitives(load.scene));
+            load.status = STATUS_TROUBLE;
+        }
+        streams_flush();
+    }
+    load_close(loader, &load);
+    return load.status;
 }
 
-static enum status tell(const char *path, struct report *report, enum monge_format format, const char *title) {
-    enum status status;
-    struct monge_scene *scene = load_outlined(path, report, &status);
-    if (!scene) return status;
-    if (title) printf("%s\n", title);
-    if (!monge_scene_info(scene, format, stdout)) {
-        say_error("%s: no memory for %zu primitives", path, monge_scene_primitives(scene));
-        status = STATUS_TROUBLE;
+static enum status tell_all(struct loader *loader, const struct arguments *args) {
+    struct monge_define *defines = calloc(loader->sweep.count + 1, sizeof *defines);
+    const bool json = args->option[OPTION_JSON].given;
+    const size_t all = args->count * loader->sweep.total;
+    enum status worst = defines ? STATUS_YES : STATUS_TROUBLE;
+    if (!defines) say_error("out of memory");
+    for (size_t i = 0; defines && i < all; i++) {
+        if (i > 0 && !json) printf("\n");
+        sweep_combination(&loader->sweep, i % loader->sweep.total, defines);
+        const enum status status = tell(loader, args->operands[i / loader->sweep.total], defines,
+                                        json ? MONGE_FORMAT_JSON : MONGE_FORMAT_TEXT, all > 1 && !json);
+        if (status > worst) worst = status;
     }
-    streams_flush();
-    monge_scene_free(scene);
-    return status;
+    free(defines);
+    return worst;
 }
 
 enum status info_command(const struct arguments *args) {
-    const bool json = args->option[OPTION_JSON].given;
-    const enum monge_format format = json ? MONGE_FORMAT_JSON : MONGE_FORMAT_TEXT;
-    struct report report;
-    enum status worst = STATUS_YES;
-    if (!report_begin(&report, args)) return STATUS_TROUBLE;
-    for (size_t i = 0; i < args->count; i++) {
-        if (i > 0 && !json) printf("\n");
-        const enum status status = tell(args->operands[i], &report, format, args->count > 1 && !json ? args->operands[i] : NULL);
-        if (status > worst) worst = status;
-    }
-    report_end(&report, stdout);
-    return worst;
+    struct loader loader;
+    const bool good = loader_begin(&loader, args);
+    loader.outline = true;
+    const enum status status = good ? tell_all(&loader, args) : STATUS_TROUBLE;
+    loader_end(&loader, good ? stdout : NULL);
+    return status;
 }

@@ -28,7 +28,7 @@ struct load load_scene(struct loader *loader, const char *path, const struct mon
     struct monge_diagnostics *diag = load.diag;
     if (!diag) return load;
     const struct monge_load_options options = {.limits = loader->limits.load, .defines = defines, .define_count = loader->sweep.count,
-                                               .frame = frame, .untrusted = loader->untrusted};
+                                               .frame = frame, .untrusted = loader->untrusted, .outline = loader->outline};
     const bool again = loader->sweep.total > 1 && strcmp(path, "-") == 0;
     const unsigned errors = monge_diagnostics_errors(diag), warnings = monge_diagnostics_warnings(diag);
     const unsigned failures = monge_diagnostics_failures(diag);
@@ -49,6 +49,14 @@ enum status load_frame(struct loader *loader, struct load *load, unsigned frame)
     report_show(&loader->report, load->diag);
     if (good) return STATUS_YES;
     return monge_diagnostics_failures(load->diag) == failures ? STATUS_NO : STATUS_TROUBLE;
+}
+
+void load_examine(struct loader *loader, struct load *load) {
+    if (!load->scene) return;
+    const unsigned warnings = monge_diagnostics_warnings(load->diag);
+    monge_scene_examine(load->scene, load->diag);
+    load->warnings += monge_diagnostics_warnings(load->diag) - warnings;
+    report_show(&loader->report, load->diag);
 }
 
 void load_close(struct loader *loader, struct load *load) {

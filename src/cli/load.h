@@ -11,6 +11,7 @@ struct loader {
     struct sweep sweep;
     struct limits limits;
     bool untrusted;
+    bool outline; /* for monge info */
     struct report report;
     bool has_input;          /* standard input has been read: */
     struct monge_text input; /* it is wanted for each combination of the sweep */
@@ -33,6 +34,9 @@ struct load load_scene(struct loader *loader, const char *path, const struct mon
 
 /* Moves it to another frame; the status as of a load. */
 enum status load_frame(struct loader *loader, struct load *load, unsigned frame);
+
+/* Tells what is not wrong as a text, but would render wrong. */
+void load_examine(struct loader *loader, struct load *load);
 
 void load_close(struct loader *loader, struct load *load);
 

@@ -118,13 +118,14 @@ static enum status render_scene(struct work *work, const struct output *output, 
 }
 
 /* The scene as it is now, which began to be loaded at `begun`. */
-static enum status render_picture(struct work *work, const struct output *output, const struct load *load, double begun,
+static enum status render_picture(struct work *work, const struct output *output, struct load *load, double begun,
                                   struct picture *picture) {
     const double loaded = clock_seconds();
     const bool built = monge_scene_prepare(load->scene); /* here a signal may still end the program at once */
     const double prepared = clock_seconds();
     if (!built)
         say_error("%s: no memory for %zu primitives", output->scene, monge_scene_primitives(load->scene));
+    if (built) load_examine(&work->loader, load);
     const enum status status = built ? render_scene(work, output, load, picture) : STATUS_TROUBLE;
     picture->primitives = monge_scene_primitives(load->scene);
     picture->load_seconds = loaded - begun;
