@@ -74,11 +74,12 @@ all: ## build the program, build/monge
 	@tools/deps --check
 	+@$(SUBMAKE) build-program
 
-demo: deps ## render every scene of scenes/report/ to out/
+demo: deps ## render the scenes of scenes/report/, and the chess board, to out/
 	+@$(SUBMAKE) build-program
 	@mkdir -p out
 	$(BUILD)/monge render -o out/ scenes/report/*.yaml
 	$(BUILD)/monge render -o out/ --samples 16 scenes/report/final.yaml
+	$(BUILD)/monge render -o out/ scenes/gallery/chess.yaml
 	@echo "The pictures are in $(CURDIR)/out"
 
 test: deps editor-deps ## run all tests; T=name runs tests/unit/test_name.c or tests/name.sh alone
