@@ -58,6 +58,9 @@ unsigned monge_diagnostics_failures(const struct monge_diagnostics *diag); /* of
 /* All so far as text for people, `file:line:col: error[code]: ...` and the line with a caret; by place. */
 void monge_diagnostics_print(const struct monge_diagnostics *diag, FILE *out);
 
+/* Those that this has not printed yet: for scenes with many frames, of which each tells the same. */
+void monge_diagnostics_print_new(struct monge_diagnostics *diag, FILE *out);
+
 /* All so far as a document, for people (as monge_diagnostics_print has it) or for programs: a JSON array of
  * objects, or SARIF 2.1.0. README.md has their members. */
 enum monge_format { MONGE_FORMAT_TEXT, MONGE_FORMAT_JSON, MONGE_FORMAT_SARIF };
@@ -99,6 +102,7 @@ struct monge_load_options {
     size_t define_count;
     unsigned frame; /* of an animation, from 1; 0: the first */
     bool untrusted; /* the scene reads files in its own folder alone */
+    bool outline;   /* for monge_scene_info to have the tree of the scene: takes more time */
 };
 
 struct monge_scene;
@@ -116,6 +120,13 @@ struct monge_scene *monge_load_memory(const char *name, const char *text, size_t
 /* The frames of the scene's animation; 0: it has none. */
 unsigned monge_scene_frames(const struct monge_scene *scene);
 
+/* Moves the scene to a frame of its animation, 1 .. monge_scene_frames(scene): from then on it is as if it had been
+ * loaded so. No file is read again. Where no object, material, template or parameter depends on the frame, only
+ * settings, camera and lights are evaluated; else all is, and the acceleration structure is kept where the
+ * objects are still the same. False, the scene being as it was, when it is wrong at that frame or there is
+ * no memory: diag says why; what it has been told of the scene before is kept once. */
+bool monge_scene_set_frame(struct monge_scene *scene, unsigned frame, struct monge_diagnostics *diag);
+
 void monge_scene_free(struct monge_scene *scene);
 
 /* How many primitives the scene has become. */
@@ -124,6 +135,15 @@ size_t monge_scene_primitives(const struct monge_scene *scene);
 /* Builds the acceleration structure, which monge_render does itself where it has not been done.
  * False when there is no memory for it. */
 bool monge_scene_prepare(struct monge_scene *scene);
+
+/* Looks for what would render wrong, without rendering: nothing in view, the camera inside of a solid, objects and
+ * lights without effect. Each is a warning in diag. Prepares the scene; where there is no memory for that, nothing. */
+void monge_scene_examine(struct monge_scene *scene, struct monge_diagnostics *diag);
+
+/* Tells what the scene has become: counts, bounds, the camera as it is framed, materials, what each template
+ * costs, and the tree where the load has kept its outline. As text, or as one JSON object (README.md has its members).
+ * Prepares the scene; false, with nothing told, when there is no memory for that. */
+bool monge_scene_info(struct monge_scene *scene, enum monge_format format, FILE *out);
 
 /* ---- Scenes of others ---- */
 

@@ -105,11 +105,14 @@ device full 7
 # ---- Help and version ----
 
 exits 0 --version; out_has 'monge '; no_err
+cp out expected
+for form in -V version; do exits 0 $form; ok "$form is --version" cmp out expected; done
+exits 2 version x; err_has 'version: expected nothing more'
 exits 0 --help; out_has 'usage: monge COMMAND'; out_has 'render SCENE...'; no_err
 exits 0 -h; out_has 'usage: monge COMMAND'
 exits 0 help; out_has 'usage: monge COMMAND'
 exits 2; err_has 'usage: monge COMMAND'; no_out
-for command in render check fmt explain import schema help; do
+for command in render check fmt explain import schema version help; do
     exits 0 help $command; out_has "usage: monge $command"
     cp out expected
     exits 0 $command --help; ok "$command --help is help $command" cmp out expected
@@ -147,7 +150,7 @@ ok "there were functions" [ $functions -gt 30 ]
 exits 0 help presets; out_has '  glass '; out_has 'refraction: 0.9, index: 1.5'; no_err
 ok "presets fit 80 columns" [ -z "$(grep -E '.{81}' out)" ]
 presets=$(sed -n 's/^  \([a-z][a-z]*\) .*/\1/p' out)
-{ echo 'scene:'; printf '  - {sphere: {}, material: {preset: %s}}\n' $presets; } >presets.yaml
+n=0; { echo 'scene:'; for preset in $presets; do echo "  - {sphere: {center: [$((n++)), 5, 0]}, material: {preset: $preset}}"; done; } >presets.yaml
 exits 0 check presets.yaml; no_err
 ok "there were presets" [ "$(wc -l <presets.yaml)" -gt 15 ]
 exits 0 help language; out_has '  sphere '; out_has 'monge help presets'
@@ -162,7 +165,7 @@ exits 0 schema; out_has '"$schema": "http://json-schema.org/draft-07/schema#"'; 
 exits 2 schema x; err_has 'schema: expected nothing more, found `x`'; no_out
 
 exits 0 help --man; out_has '.TH MONGE 1'; out_has '.SH EXIT STATUS'; out_has '.SH SCENES'; out_has 'material: jade'
-for option in output size samples region shading shadow no\\-shadows depth bits encoding threads stats progress format check quiet; do
+for option in output size samples region shading shadow no\\-shadows depth bits encoding threads stats progress format check quiet define frames limit untrusted; do
     out_has "\\-\\-$option"
 done
 have man && ok "the manual page has no roff warnings" [ -z "$(LC_ALL=C.UTF-8 man --warnings -l out 2>&1 >/dev/null)" ]
@@ -247,7 +250,7 @@ exits 0 render "${small[@]}" a/one.yaml -o deep/er/; is_png deep/er/one.png
 exits 0 render "${small[@]}" one.yaml -o deep; is_png deep/one.png
 exits 0 render "${small[@]}" one.yaml two.yml -o 'p-{name}.png'; is_png p-one.png; is_png p-two.png
 exits 0 render "${small[@]}" one.yaml two.yml -o 'q/{name}/'; is_png q/one/one.png; is_png q/two/two.png
-exits 2 render one.yaml -o '{nmae}.png'; err_has '-o: expected {name}, found `{nmae}.png`'
+exits 2 render one.yaml -o '{nmae}.png'; err_has '-o: expected {name}, found `{nmae}`; did you mean {name}?'
 [ -e null ] && exits 0 render "${small[@]}" one.yaml two.yml -o null --stats null && ok "it stays a device" [ -c null ]
 exits 0 render "${small[@]}" --region 4,3,5,2 one.yaml -o region.png; png_size region.png 5 2
 exits 0 render "${small[@]}" one.yaml --bits 16 --encoding linear -o bits.png
@@ -290,6 +293,9 @@ exits 2 render one.yaml -o alias.png; err_has 'one.yaml would be written over'
 exits 2 render one.yaml --stats link/one.yaml; err_has 'one.yaml would be written over by the output of --stats'
 ok "the scene is whole" cmp one.yaml a/one.yaml
 
+for name in x.jpg x.JPEG none/y.gif; do exits 2 render one.yaml -o $name; err_has "-o $name: pictures are PNG; did you mean ${name%.*}.png?"; missing $name; done
+exits 0 render "${small[@]}" -q one.yaml -o x.y; is_png x.y
+exits 0 render "${small[@]}" -q one.yaml -o 'made/{name}/of.{name}.png'; is_png made/one/of.one.png
 exits 2 render one.yaml -o none/x.png; err_has 'none/x.png: No such file or directory'; missing none
 exits 2 render one.yaml -o file/x.png; err_has 'file/x.png: Not a directory'
 exits 2 render one.yaml -o file/; err_has 'cannot make the folder file'
@@ -312,6 +318,227 @@ ok "a full disk leaves the old picture" [ "$(cat kept.png)" = old ]
 no_temporaries
 ln -s kept.png through.png
 exits 0 render "${small[@]}" one.yaml -o through.png; is_png kept.png; ok "a link stays one" [ -L through.png ]
+
+# ---- Parameters and sweeps ----
+
+cat >params.yaml <<'YAML'
+params: {a: 1, b: 0.5, v: [0, 0, 0], tint: white}
+scene:
+  - sphere: {radius: a, center: v}
+    material: {diffuse: tint}
+  - box: {}
+    transform: [{scale: b}, {translate: [12, 1, 0]}]
+YAML
+# literally NAME A B V TINT: the same scene with the values written in it
+literally() { printf 'scene:\n  - sphere: {radius: %s, center: %s}\n    material: {diffuse: "%s"}\n  - box: {}\n    transform: [{scale: %s}, {translate: [12, 1, 0]}]\n' "$2" "$4" "$5" "$3" >"$1.yaml"; }
+literally literal 2 0.25 '[0, 1, 0]' tomato
+exits 0 render -q "${small[@]}" literal.yaml
+exits 0 render -q "${small[@]}" params.yaml -D a=2 --define b=0.25 '-Dv=[0, 1, 0]' --define=tint=tomato; no_err
+ok "-D is as if it were written" same_pixels params.png literal.png
+exits 0 render -q "${small[@]}" params.yaml -D a=1 -D a=2 -D b=0.25 -D 'v=[0, 1, 0]' -D 'tint="tomato"'
+ok "the last -D of a name counts" same_pixels params.png literal.png
+exits 0 check params.yaml -D a=2; ok "one value is no sweep" [ "$(cat out)" = 'params.yaml: ok' ]
+exits 1 render params.yaml -D aa=2; err_has 'error[unknown-parameter]'; err_has 'its parameters: a, b, v, tint'
+exits 1 check params.yaml -D a=-2; out_has '1 error'
+for bad in a =3 ''; do exits 2 render params.yaml -D "$bad"; err_has "-D: expected NAME=VALUE, found \`$bad\`"; done
+exits 2 render params.yaml -D; err_has '-D: expected NAME=VALUE, found nothing'
+for bad in 1a=3 'a b=3' a-b=3; do exits 2 check params.yaml -D "$bad"; err_has "-D $bad: a parameter has letters"; done
+for bad in a=1, a=,1 a=1,,2; do exits 2 check params.yaml -D "$bad"; err_has '-D a: an empty value in'; done
+exits 2 check params.yaml -D a=1..2:0; err_has 'is no range'
+exits 2 check params.yaml -D a=1..9000000; err_has 'is no range'
+exits 2 check params.yaml -D a=1..2000 -D b=1..2000; err_has '-D: more than 1000000 combinations'
+exits 2 fmt params.yaml -D a=1; err_has 'no option `-D`'
+
+# combinations ARGS...: what `check` says there are, one a line
+combinations() { run check params.yaml "$@"; sed 's/params.yaml with //; s/: ok$//' out; }
+ok "later lists run fastest" [ "$(combinations -D a=1,2 -D b=3,4 | tr '\n' ';')" = 'a=1, b=3;a=1, b=4;a=2, b=3;a=2, b=4;' ]
+ok "brackets and quotes do not split" [ "$(combinations -D 'v=[1,2,3],[a, (b), 1]' -D 'tint="#fff",rgb(1,0,0)' | wc -l)" -eq 4 ]
+ok "a single list is not a sweep" [ "$(combinations -D 'v=[1,2,3]')" = params.yaml ]
+ok "ranges" [ "$(combinations -D a=1..3,7 | tr '\n' ';')" = 'a=1;a=2;a=3;a=7;' ]
+ok "ranges with steps" [ "$(combinations -D a=1..2:0.25 | tr '\n' ';')" = 'a=1;a=1.25;a=1.5;a=1.75;a=2;' ]
+ok "ranges that fall" [ "$(combinations -D a=9..4:3 | tr '\n' ';')" = 'a=9;a=6;' ]
+exits 1 check -q params.yaml -D a=1,-1,2; ok "each is checked" [ "$(cat out)" = 'params.yaml with a=-1: 1 error' ]
+
+mkdir sweep && cd sweep && cp ../params.yaml ../one.yaml .
+exits 0 render "${small[@]}" params.yaml -D a=1,2 -D b=0.5 -D 'tint=gold,"#ff0000"'
+ok "their names" [ "$(ls ./*.png | tr '\n' ' ')" = './params-a=1-tint=ff0000.png ./params-a=1-tint=gold.png ./params-a=2-tint=ff0000.png ./params-a=2-tint=gold.png ' ]
+ok "their order" [ "$(sed 's/^wrote params-\(.*\).png .*/\1/' err | tr '\n' ' ')" = 'a=1-tint=gold a=1-tint=ff0000 a=2-tint=gold a=2-tint=ff0000 ' ]
+exits 0 render -q "${small[@]}" params.yaml -D a=2 -D tint=gold -o x.png; ok "as by itself" cmp x.png params-a=2-tint=gold.png
+exits 0 render -q "${small[@]}" params.yaml -D a=1,2 -o 'p/{a}/{name}-{a}.png'; is_png p/1/params-1.png; is_png p/2/params-2.png
+exits 0 render -q "${small[@]}" params.yaml -D a=1,2 -o 'd/'; is_png d/params-a=1.png; is_png d/params-a=2.png
+exits 0 render -q "${small[@]}" params.yaml -D 'v=[0, 0, 1]' -o 'v{v}.png'; is_png v0_0_1.png
+exits 0 render -q "${small[@]}" params.yaml -D 'tint="#00f"' -o '{tint}%d.png'; is_png 00f%d.png
+exits 1 render params.yaml -D a=.. -o 'up/{a}/x.png'; ok "a value is never a way up" [ -d up/_ ]
+rm -f x.png
+exits 2 render params.yaml -D a=1,2 -o x.png; err_has "-o x.png is one file for 2 pictures: end it in / for a folder, or write -o 'x-{a}.png'"; missing x.png
+exits 2 render params.yaml -D a=1,2 -D b=1,2 -o 'x{a}.png'
+err_has 'params.yaml with a=1, b=1 and params.yaml with a=1, b=2 would both write'; err_has "write -o 'x{a}-{b}.png'"; missing x1.png
+exits 2 render params.yaml -D a=1,1; err_has 'would both write'
+exits 2 render params.yaml one.yaml -D a=1,2 -o '{a}'; err_has "write -o '{a}-{name}.png'"
+exits 2 render params.yaml -D a=1,2 -o '{a}{c}.png'; err_has '-o: expected {name}, {a}, found `{c}`'
+exits 2 render params.yaml -D tint=red,gold -o '{tnit}.png'; err_has 'did you mean {tint}?'
+exits 2 render params.yaml -o '{a}.png'; err_has '-D NAME=VALUE makes a {NAME}'
+exits 2 render params.yaml -o '{a'; err_has 'found `{a`'
+last='render - -D a=1,2 <params.yaml'
+"$monge" render -q "${small[@]}" - -D a=1,2 -o 's{a}.png' <params.yaml >out 2>err; status=$?
+ok "standard input with a sweep" [ $status -eq 0 ]; ok "its first" cmp s1.png p/1/params-1.png; ok "its second" cmp s2.png p/2/params-2.png
+"$monge" check - -D a=1,2 <params.yaml >out 2>err; ok "check of it" [ "$(grep -c ok out)" -eq 2 ]
+exits 0 render "${small[@]}" -q params.yaml -D a=1,2 -D b=1 --stats s.json
+ok "the statistics have the parameters" grep -qF '"params": {"a": "2", "b": "1"}' s.json
+exits 0 render --size 640x480 --samples 16 --threads 1 params.yaml -D a=1,2 --progress always -o 'p{a}.png'
+err_has 'params  picture 2 of 2  ['
+exits 1 render "${small[@]}" params.yaml -D a=1,-1,2; err_has '2 rendered, 1 failed'
+cd ..
+
+# ---- Animation ----
+
+mkdir frames && cd frames && cp ../one.yaml .
+cat >view.yaml <<'YAML'
+animation: {frames: 12}
+camera: {eye: [6*cos(2*pi*t), 2, 6*sin(2*pi*t)], look_at: [0, 0, 0]}
+lights: [{point: {at: [4, 4 + t, 4]}}]
+params: {a: 1}
+scene:
+  - sphere: {radius: a}
+  - box: {}
+    transform: [{translate: [40, 1, 0]}]
+YAML
+cat >move.yaml <<'YAML'
+animation: {frames: 12}
+camera: {eye: [2, 2, 6 + t], look_at: [0, 0, 0]}
+scene:
+  - sphere: {radius: 0.5 + t}
+  - box: {}
+    material: {diffuse: [t, 0, 0], reflection: {keys: {1: 0, 12: 0.5}}}
+    transform: [{translate: [40, 1, 0]}]
+YAML
+sed 's/0.5 + t/0.5/' move.yaml >paint.yaml
+for scene in view move paint; do
+    exits 0 render "${small[@]}" $scene.yaml --frames all -o all/
+    ok "$scene: 12 pictures" [ "$(ls all/$scene-00??.png | wc -l)" -eq 12 -a "$(grep -c '^wrote' err)" -eq 12 ]
+    ok "$scene: no two are the same" [ "$(for f in all/$scene-*.png; do pixels "$f"; done | sort -u | wc -l)" -eq 12 ]
+    for frame in 01 02 07 12; do
+        exits 0 render -q "${small[@]}" $scene.yaml --frames $((10#$frame)) -o alone.png
+        ok "$scene: frame $frame is as by itself" cmp alone.png all/$scene-00$frame.png
+    done
+    exits 0 render -q "${small[@]}" $scene.yaml -o first.png; no_err
+    ok "$scene: without --frames the first" cmp first.png all/$scene-0001.png
+done
+exits 0 render -q "${small[@]}" view.yaml --frames 3; is_png view-0003.png
+for row in '2-4:2 3 4' '11-:11 12' '12:12' '2-9/3:2 5 8' '4-:4 5 6 7 8 9 10 11 12' 'all/5:1 6 11' '7-7:7'; do
+    rm -rf range
+    frames=${row%:*}
+    exits 0 render -q "${small[@]}" view.yaml --frames "${frames/\//:}" -o range/
+    ok "frames ${row%:*}" [ "$(ls range | sed 's/view-0*//; s/.png//' | tr '\n' ' ')" = "${row#*:} " ]
+done
+for bad in 0 0-3 3-2 -3 x 1-x 1:0 1: all: 1-2-3 '' 1000001 allx; do
+    exits 2 render view.yaml --frames "$bad"; err_has "--frames: expected N, A-B, A- or all, perhaps with :STEP, from 1, found \`$bad\`"
+done
+for bad in 13 12-13 13- 13-14; do exits 2 render view.yaml --frames $bad; err_has "--frames $bad: view.yaml has 12 frames"; done
+exits 2 render one.yaml --frames all; err_has '--frames all: one.yaml has no animation; `animation: {frames: 48}` makes one'
+missing one-0001.png
+exits 2 render one.yaml view.yaml --frames 1 "${small[@]}" -o both/; is_png both/view-0001.png; err_has '1 rendered, 1 failed'
+
+exits 0 render -q "${small[@]}" view.yaml --frames 9-10 -o 'p/{name}/f{frame}.png'; is_png p/view/f09.png; is_png p/view/f10.png
+exits 0 render -q "${small[@]}" view.yaml --frames 9-10 -o 'p/%d/{frame}.png'; is_png p/9/09.png; is_png p/10/10.png
+exits 0 render -q "${small[@]}" view.yaml --frames 9 -o 'p/%03d%%.png'; is_png p/009%.png
+exits 0 render -q "${small[@]}" view.yaml --frames 9 -o 'just.png'; is_png just.png
+exits 0 render -q "${small[@]}" view.yaml -o 'p/../50%d.png'; is_png 50%d.png
+exits 0 render -q "${small[@]}" view.yaml -D a=1,2 --frames 1-2; is_png view-a=1-0001.png; is_png view-a=2-0002.png
+for bad in '%' '%s' '%4d' '%00d' '%d%' '%-4d'; do exits 2 render view.yaml --frames 1-2 -o "$bad.png"; err_has 'with --frames, expected %d, %04d'; done
+exits 2 render view.yaml --frames 1-2 -o '%d-%04d.png'; err_has 'one %d is enough'
+exits 2 render view.yaml -o '{frame}.png'; err_has '-o: {frame} is for --frames'
+exits 2 render view.yaml --frames 1-2 -o x.png; err_has "-o x.png is one file for many frames: end it in / for a folder, or write -o 'x-{frame}.png'"
+exits 2 render view.yaml --frames all -D a=1,2 -o x.png; err_has "'x-{a}-{frame}.png'"
+exits 2 render view.yaml move.yaml --frames all -o 'x{frame}.png'; err_has 'would both write'
+exits 2 render view.yaml --frames all -o -; err_has 'only one picture'; no_out
+exits 0 render -q "${small[@]}" view.yaml --frames 2 -o -; ok "one frame to stdout" cmp out all/view-0002.png
+cp view.yaml 07.yaml
+exits 2 render 07.yaml --frames 6-8 -o '{frame}.yaml'; err_has '07.yaml would be written over'
+ok "the scene is whole" cmp view.yaml 07.yaml
+
+# what is read once, as only a pipe can tell
+printf 'params: {r: 0.5}\nscene: []\n' >defs.yaml
+sed 's/^animation/include: defs.pipe\nanimation/; s/0.5 + t/r + t/' move.yaml >included.yaml
+mkfifo defs.pipe scene.pipe
+last='render included.yaml, whose include is a pipe'
+cat defs.yaml >defs.pipe & feeder=$!
+timeout 20 "$monge" render -q "${small[@]}" included.yaml --frames 1-3 -o once/ >out 2>err; status=$?
+ok "an include is read once" [ $status -eq 0 ]; kill $feeder 2>/dev/null
+for frame in 1 2 3; do ok "and used for frame $frame" same_pixels once/included-000$frame.png all/move-000$frame.png; done
+for scene in view move; do
+    last="render $scene.yaml by a pipe"
+    cat $scene.yaml >scene.pipe & feeder=$!
+    timeout 20 "$monge" render -q "${small[@]}" scene.pipe --frames 1-3 -o once/ >out 2>err; status=$?
+    ok "$scene is read once" [ $status -eq 0 ]; kill $feeder 2>/dev/null
+    ok "$scene: its third frame" cmp once/scene.pipe-0003.png all/$scene-0003.png
+    "$monge" render -q "${small[@]}" - --frames 1-3 -o once/ <$scene.yaml 2>err; ok "$scene from stdin" cmp once/stdin-0003.png all/$scene-0003.png
+    "$monge" render -q "${small[@]}" - -D a=1,2 --frames 1-3 -o 'twice/{a}-{frame}.png' <view.yaml 2>err; ok "with a sweep" cmp twice/1-03.png all/view-0003.png
+done
+
+for scene in view move paint; do run render -q "${small[@]}" $scene.yaml --frames all -o all/ --stats $scene.json; done
+if have python3; then
+    ok "the hierarchy is kept where it serves" python3 - <<'PYTHON'
+import json
+for scene, kept in ("view", True), ("paint", True), ("move", False):
+    pictures = json.load(open(scene + ".json"))["pictures"]
+    assert [p["frame"] for p in pictures] == list(range(1, 13))
+    assert pictures[2]["output"] == f"all/{scene}-0003.png"
+    builds = [p["seconds"]["build"] for p in pictures[1:]]
+    assert not kept or sum(builds) < 0.001, builds
+PYTHON
+fi
+
+# a frame that is wrong, and what each frame would say again
+sed 's/0.5 + t/3 - frame/' move.yaml >wrong.yaml
+exits 1 render "${small[@]}" wrong.yaml --frames 1-4 -o wrong/; is_png wrong/wrong-0002.png; missing wrong/wrong-0003.png
+err_has 'frame 3 of wrong.yaml is left out'; err_has '`3 - frame`, which is 0'; err_has '2 rendered, 2 failed'
+sed 's/eye: .*t)\]/fov: 60 - 20*frame/' view.yaml >wrong.yaml
+exits 1 render "${small[@]}" wrong.yaml --frames 1-4 -o wrong/; err_has '2 rendered, 2 failed'
+sed 's/^scene/materials: {unused: {}}\nscene/; s/radius: 1/radius: 0.5 + t/' view.yaml >warned.yaml
+exits 0 render "${small[@]}" warned.yaml --frames all -o w/; ok "a warning is told once" [ "$(grep -c warning err)" -eq 1 ]
+exits 0 render "${small[@]}" warned.yaml --frames all -o w/ --format json; ok "in JSON as well" [ "$(grep -c '"warning"' err)" -eq 1 ]
+
+exits 0 render --size 640x480 --samples 16 --threads 1 view.yaml --frames 5 --progress always -o p.png; err_has 'view  frame 5 of 12  ['
+if have perl; then
+    signalled INT 1 render --size 300x200 --samples 64 --threads 1 view.yaml --frames all -o cut/ --stats cut.json
+    ok "SIGINT between frames ends monge" [ "$status" -eq 2 ]; missing cut.json; missing cut/view-0012.png; no_temporaries
+    ok "what is there is whole" [ -z "$(for f in cut/*.png; do [ ! -e "$f" ] || tail -c 8 "$f" | grep -q IEND || echo "$f"; done)" ]
+fi
+cd ..
+
+# ---- Limits ----
+
+exits 0 check one.yaml --limit file_bytes=1k --limit memory_bytes=1G --limit steps=2M --limit=objects=1 --untrusted
+exits 2 check one.yaml --limit file_bytes=10; err_has 'limit-file-bytes'
+exits 1 check one.yaml --limit nesting=1; err_has 'limit-nesting'
+exits 1 render wrong.yaml --limit objects=1 --limit values=3; err_has 'limit-values'
+exits 2 check one.yaml --limit memory_bytes=1; err_has 'limit-memory'
+{ echo 'scene:'; for i in 1 2 3 4 5 6; do echo "  - sphere: {center: [$((3 * i)), 0, 0]}"; done; } >six.yaml
+exits 1 check six.yaml --limit objects=5; err_has 'limit-objects'; exits 0 check six.yaml --limit objects=6
+printf 'scene:\n  - sphere: {center: [3 * i, 0, 0]}\n    for: {i: {from: 1, to: 50}}\n' >loop.yaml
+exits 1 check loop.yaml --limit steps=20; err_has 'limit-steps'; exits 0 check loop.yaml --limit steps=1k
+exits 1 check one.yaml --limit pixels=1000; err_has 'one.yaml: a picture of 640x480 has more than 1000 pixels (the limit `pixels`)'; out_has '1 error'
+exits 1 render one.yaml --limit pixels=1k -o x.png; err_has 'the limit `pixels`'
+exits 2 render one.yaml --limit pixels=1k --size 100x100 -o x.png; err_has 'a picture of 100x100'
+exits 0 render -q one.yaml --limit pixels=192 "${small[@]}" -o x.png
+exits 2 check one.yaml --limit objcts=5; err_has '--limit: no limit `objcts`; did you mean `objects`?'
+exits 2 check one.yaml --limit xyzzy=5; err_has 'there are file_bytes, memory_bytes, values, nesting, recursion, steps, objects, pixels'
+exits 2 check one.yaml --limit steps; err_has '--limit: expected NAME=VALUE'
+for bad in 0 x '' -1 5K 5kk 1.5 k 99999999999999999999 99999999999999999G; do
+    exits 2 check one.yaml --limit "steps=$bad"; err_has "--limit steps=$bad: expected a whole number from 1, as"
+done
+exits 2 check one.yaml --limit nesting=1001; err_has 'from 1 to 1000'
+exits 2 check one.yaml --limit pixels=1G; err_has 'from 1 to 268435456'
+for command in render check; do
+    exits 0 help $command; for limit in 'file_bytes (of one file: 1G)' 'memory_bytes (of a load:' 'pixels (of the'; do
+        ok "help $command tells $limit" sh -c 'tr "\n" " " <out | grep -qF "$1"' sh "$limit"
+    done
+done
+mkdir inside && printf 'include: ../params.yaml\nscene:\n  - sphere: {radius: a}\n' >inside/out.yaml
+exits 0 check inside/out.yaml
+exits 1 check --untrusted inside/out.yaml; err_has 'include-outside'
+exits 1 render --untrusted inside/out.yaml; err_has 'include-outside'
 
 # ---- Standard streams ----
 

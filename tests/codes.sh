@@ -9,11 +9,7 @@ trap 'rm -rf "$work"' EXIT
 passed=0 failed=0
 
 # Explained already, not used in src/ yet.
-pending='camera-inside no-effect nothing-in-view unused-material'
-
-# Their examples take options that the command line does not have yet.
-untried='include-outside unknown-parameter'
-options=' -D[ ,]|--untrusted'
+pending=''
 
 # Not in the expected texts of tests/errors/ and tests/import/: what no scene gives.
 elsewhere='
@@ -46,7 +42,7 @@ words() { tr -s ' ' '\n' <<<"$1" | grep . | sort -u; }
 # The first text of a call is its code; and, but for the import, every text that looks like one: some are passed on.
 # `beyond` is what only_counted gives to a list that is full: it is never kept.
 codes_of_src() {
-    cat src/{base,lang,scene}/*.c src/monge.c | tr '\n' ' ' |
+    cat src/{base,lang,scene,render}/*.c src/monge.c | tr '\n' ' ' |
         grep -oE 'diag_(error|warning|failure)\([^"]*"[a-z]+(-[a-z]+)*"' | grep -oE '"[a-z-]+"$' | tr -d '"'
     find src/lang src/scene src/monge.c -name '*.c' ! -name 'import_*.c' -exec cat {} + |
         grep -oE '"[a-z]+(-[a-z]+)+"' | tr -d '"'
@@ -91,9 +87,6 @@ gives() { [ "$(codes_in "$1")" = "$2" ] || { echo "it gives: $(codes_in "$1")"; 
 expected() { case $1 in import-fresnel) printf '%s\n' "$1" import-shadow ;; *) echo "$1" ;; esac; } # glass has both
 silent() { [ ! -s "$1" ] || { cat "$1"; false; }; }
 
-words "$untried" >"$work/untried"
-has_no_options() { ! "$monge" check -h | grep -qE -e "$options"; }
-
 monge() { "$monge" "$@"; }
 export monge
 export -f monge
@@ -103,10 +96,6 @@ cd "$work/run" || exit 2
 while IFS=$'\t' read -r code kind severity; do
     grep -qx -e "$code" "$work/pending" && continue
     wrong=$work/example.$code.wrong right=$work/example.$code.right
-    if grep -qx -e "$code" "$work/untried"; then
-        check "$code: its example can be tried now, take it off \`untried\`" has_no_options
-        continue
-    fi
     case $kind in
     book)
         "$monge" import "$wrong" -o book.yaml >/dev/null 2>"$work/wrong"

@@ -53,6 +53,13 @@ struct surface accel_surface(const struct accel *accel, ray r, const struct hit 
 void accel_around(const struct accel *accel, ray r, void (*visit)(void *context, const struct hit *hit, ray in_set),
                   void *context);
 
+/* The same for what is not clear. */
+void accel_around_opaque(const struct accel *accel, ray r, void (*visit)(void *context, const struct hit *hit, ray in_set),
+                         void *context);
+
+/* A world-space box around all that one of the scene's instances places, by its index; infinite where that is. */
+box3 accel_placed_bounds(const struct accel *accel, uint32_t index);
+
 /* How far the bounded primitives reach along a world-space direction of any length: the largest dot
  * product with it. -INFINITY where there are none. Exact to rounding without instances, with them to 1e-6
  * of the scene's size; where too many reach about as far, not too small. */

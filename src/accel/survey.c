@@ -12,6 +12,7 @@ struct stack {
 struct around {
     void (*visit)(void *context, const struct hit *hit, ray in_set);
     void *context;
+    bool clear; /* which of the two trees */
     struct hit hit; /* being made: `which` leads to the set that the search is in */
 };
 
@@ -46,7 +47,7 @@ static void around_run(struct around *a, const struct accel *accel, ray r, uint3
 }
 
 static void around_set(struct around *a, const struct accel *accel, ray r, uint32_t inherited) {
-    const struct bvh *bvh = accel->clear;
+    const struct bvh *bvh = accel_tree(accel, a->clear);
     around_run(a, accel, r, inherited, bvh->unbounded, bvh->unbounded_count);
     if (!bvh->node_count) return;
     struct stack stack = {.depth = 1}; /* the root */
@@ -65,8 +66,20 @@ static void around_set(struct around *a, const struct accel *accel, ray r, uint3
 
 void accel_around(const struct accel *accel, ray r, void (*visit)(void *context, const struct hit *hit, ray in_set),
                   void *context) {
-    struct around a = {.visit = visit, .context = context};
+    struct around a = {.visit = visit, .context = context, .clear = true};
     around_set(&a, accel, r, MATERIAL_INHERITED);
+}
+
+void accel_around_opaque(const struct accel *accel, ray r, void (*visit)(void *context, const struct hit *hit, ray in_set),
+                         void *context) {
+    struct around a = {.visit = visit, .context = context, .clear = false};
+    around_set(&a, accel, r, MATERIAL_INHERITED);
+}
+
+box3 accel_placed_bounds(const struct accel *accel, uint32_t index) {
+    const struct accel *placed = accel->placed[index];
+    if (placed->opaque->unbounded_count || placed->clear->unbounded_count) return BOX3_ALL;
+    return shape_placed_bounds(&accel->primitives->instances[index], accel_bounds(placed));
 }
 
 /* ---- How far a scene reaches ---- */

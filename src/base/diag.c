@@ -78,12 +78,13 @@ static bool place_before(const struct place *a, const struct place *b) {
     return a->line != b->line ? a->line < b->line : a->column < b->column;
 }
 
-static bool already_there(const struct diagnostics *diag, const struct diagnostic *d) {
-    for (const struct diagnostic *e = diag->first; e; e = e->next)
-        if (e->load == d->load && e->severity == d->severity && same_file(&e->place, &d->place) && e->place.line == d->place.line &&
+/* The same, told of the same scene before; NULL: none. */
+static struct diagnostic *find_same(const struct diagnostics *diag, const struct diagnostic *d) {
+    for (struct diagnostic *e = diag->first; e; e = e->next)
+        if (e->load >= diag->scene && e->severity == d->severity && same_file(&e->place, &d->place) && e->place.line == d->place.line &&
             e->place.column == d->place.column && strcmp(e->message, d->message) == 0)
-            return true;
-    return false;
+            return e;
+    return NULL;
 }
 
 /* Before the first of the same file that comes later in it; else at the end. */
@@ -107,9 +108,11 @@ static char *format_text(struct arena *arena, const char *format, va_list args) 
 }
 
 void diag_begin(struct diagnostics *diag) {
-    diag->load++;
+    diag->scene = ++diag->load;
     diag->before = diag->kept;
 }
+
+void diag_begin_again(struct diagnostics *diag) { diag->load++; }
 
 bool diag_full(const struct diagnostics *diag) { return diag->kept - diag->before >= DIAG_MAX_KEPT; }
 
@@ -134,8 +137,12 @@ static void append_related(struct diagnostics *diag, struct diagnostic *d, struc
 static void add_frames(struct diagnostics *diag, struct diagnostic *d) {
     enum { SHOWN = 6 };
     int i = 0;
-    for (const struct diag_frame *frame = diag->frame; frame && i < SHOWN; frame = frame->outer, i++)
-        append_related(diag, d, frame->span, frame->text(&diag->arena, frame));
+    for (const struct diag_frame *frame = diag->frame; frame && i < SHOWN; frame = frame->outer, i++) {
+        const char *told = frame->text(&diag->arena, frame);
+        char *text = arena_text(&diag->arena, told, strlen(told));
+        *copy_safe(text, text, strlen(text)) = '\0';
+        append_related(diag, d, frame->span, text);
+    }
 }
 
 /* Past the kept ones nothing is copied: a file of a million mistakes is no burden. */
@@ -151,8 +158,14 @@ static struct diagnostic *add(struct diagnostics *diag, enum severity severity, 
     d->load = diag->load;
     d->message = format_text(&diag->arena, format, args);
     d->place = make_place(diag, span);
-    if (already_there(diag, d)) return d;
+    struct diagnostic *same = find_same(diag, d);
+    if (same && same->load == diag->load) return d;
     count(diag, severity);
+    if (same) {
+        same->load = diag->load;
+        diag->repeated++;
+        return d;
+    }
     diag->kept++;
     insert(diag, d);
     add_frames(diag, d);
@@ -240,7 +253,7 @@ static void print_one(const struct diagnostic *d, FILE *out) {
 }
 
 bool diag_more(const struct diagnostics *diag, char text[DIAG_MORE_SIZE]) {
-    const unsigned all = diag->errors + diag->warnings + diag->failures;
+    const unsigned all = diag->errors + diag->warnings + diag->failures - diag->repeated;
     if (all > diag->kept) snprintf(text, DIAG_MORE_SIZE, "and %u more", all - diag->kept);
     return all > diag->kept;
 }
@@ -249,6 +262,17 @@ void diag_print(const struct diagnostics *diag, FILE *out) {
     for (const struct diagnostic *d = diag->first; d; d = d->next) print_one(d, out);
     char more[DIAG_MORE_SIZE];
     if (diag_more(diag, more)) fprintf(out, "... %s\n", more);
+}
+
+void diag_print_new(struct diagnostics *diag, FILE *out) {
+    char more[DIAG_MORE_SIZE];
+    bool any = false;
+    for (struct diagnostic *d = diag->first; d; d = d->next) {
+        if (!d->printed) print_one(d, out);
+        any |= !d->printed;
+        d->printed = true;
+    }
+    if (any && diag_more(diag, more)) fprintf(out, "... %s\n", more);
 }
 
 void diag_free(struct diagnostics *diag) {

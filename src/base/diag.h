@@ -44,7 +44,8 @@ struct diagnostic {
     const char *help;    /* the smallest fix, drawn behind the caret; NULL: none */
     const char *note;    /* background in a line of its own; NULL: none */
     struct related *related;
-    unsigned load; /* which of the loads told it */
+    unsigned load; /* which of the loads told it last */
+    bool printed;
     struct diagnostic *next;
 };
 
@@ -64,13 +65,18 @@ struct diagnostics {
     const struct diag_frame *frame; /* NULL: nothing is under way */
     struct diagnostic *first;
     unsigned kept;
-    unsigned load, before; /* how many loads have begun; how many were kept when the last one did */
+    unsigned load, before; /* how many loads have begun; how many were kept when the last scene's did */
+    unsigned scene;        /* the load that the last scene began with */
+    unsigned repeated;     /* counted once more because a scene was loaded again */
     struct diagnostic beyond; /* stands for the ones that are not kept */
     unsigned errors, warnings, failures; /* all of them, the ones not kept too */
 };
 
 /* A load begins: as many may be kept of it as of the one before, and what that one told may be told again. */
 void diag_begin(struct diagnostics *diag);
+
+/* The last scene is loaded again, for another frame: what was told of it counts again, but is kept once. */
+void diag_begin_again(struct diagnostics *diag);
 
 /* `code` is static. Each returns the diagnostic, to add help, a note or related places to; never NULL. The same
  * message of a load at the same place is kept and counted once, as long as there is room to keep it. What
@@ -96,6 +102,7 @@ enum { DIAG_MORE_SIZE = 32 };
 bool diag_more(const struct diagnostics *diag, char text[DIAG_MORE_SIZE]);
 
 void diag_print(const struct diagnostics *diag, FILE *out);
+void diag_print_new(struct diagnostics *diag, FILE *out); /* what it has not printed yet */
 void diag_free(struct diagnostics *diag);
 
 #endif

@@ -1,6 +1,7 @@
 #include "cli/check.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 
 #include "cli/load.h"
 #include "cli/say.h"
@@ -20,17 +21,54 @@ static void print_verdict(const char *scene, const struct load *load) {
     streams_flush();
 }
 
-enum status check_command(const struct arguments *args) {
-    struct report report;
-    enum status worst = STATUS_YES;
-    if (!report_begin(&report, args)) return STATUS_TROUBLE;
-    for (size_t i = 0; i < args->count; i++) {
-        struct load load = load_scene(args->operands[i], &report);
-        monge_scene_free(load.scene);
-        const bool wanted = load.status != STATUS_YES || !args->option[OPTION_QUIET].given;
-        if (wanted && report.format == MONGE_FORMAT_TEXT) print_verdict(args->operands[i], &load);
-        if (load.status > worst) worst = load.status;
+/* What is not wrong as a text, but would render wrong. */
+static void examine(struct loader *loader, struct load *load) {
+    if (!load->scene) return;
+    const unsigned warnings = monge_diagnostics_warnings(load->diag);
+    monge_scene_examine(load->scene, load->diag);
+    load->warnings += monge_diagnostics_warnings(load->diag) - warnings;
+    report_show(&loader->report, load->diag);
+}
+
+static void check_limits(const struct loader *loader, const char *scene, struct load *load) {
+    if (!load->scene) return;
+    const struct monge_settings settings = monge_scene_settings(load->scene);
+    if (load_allows(loader, scene, &settings)) return;
+    load->errors++;
+    load->status = STATUS_NO;
+}
+
+/* The scene with one combination of the sweep. */
+static enum status check_scene(struct loader *loader, const char *scene, const struct monge_define *defines, bool quiet) {
+    struct load load = load_scene(loader, scene, defines, 0);
+    check_limits(loader, scene, &load);
+    examine(loader, &load);
+    const bool wanted = load.status != STATUS_YES || !quiet;
+    char *with = sweep_describe(&loader->sweep, defines), *title = say_text("%s%s%s", scene, *with ? " with " : "", with);
+    if (wanted && loader->report.format == MONGE_FORMAT_TEXT) print_verdict(title, &load);
+    free(title);
+    free(with);
+    load_close(loader, &load);
+    return load.status;
+}
+
+static enum status check_scenes(struct loader *loader, const struct arguments *args) {
+    struct monge_define *defines = calloc(loader->sweep.count + 1, sizeof *defines);
+    enum status worst = defines ? STATUS_YES : STATUS_TROUBLE;
+    if (!defines) say_error("out of memory");
+    for (size_t i = 0; defines && i < args->count * loader->sweep.total; i++) {
+        sweep_combination(&loader->sweep, i % loader->sweep.total, defines);
+        const enum status status = check_scene(loader, args->operands[i / loader->sweep.total], defines, args->option[OPTION_QUIET].given);
+        if (status > worst) worst = status;
     }
-    report_end(&report, stdout);
+    free(defines);
     return worst;
+}
+
+enum status check_command(const struct arguments *args) {
+    struct loader loader;
+    const bool good = loader_begin(&loader, args);
+    const enum status status = good ? check_scenes(&loader, args) : STATUS_TROUBLE;
+    loader_end(&loader, good ? stdout : NULL);
+    return status;
 }

@@ -1,5 +1,6 @@
 #include "cli/commands.h"
 
+#include <stdio.h>
 #include <string.h>
 
 #include "cli/check.h"
@@ -7,6 +8,7 @@
 #include "cli/fmt.h"
 #include "cli/help.h"
 #include "cli/import.h"
+#include "cli/info.h"
 #include "cli/options.h"
 #include "cli/render.h"
 #include "cli/say.h"
@@ -17,6 +19,7 @@
 #define IN_NONE    (1u << COMMAND_NONE)
 #define IN_RENDER  (1u << COMMAND_RENDER)
 #define IN_CHECK   (1u << COMMAND_CHECK)
+#define IN_INFO    (1u << COMMAND_INFO)
 #define IN_FMT     (1u << COMMAND_FMT)
 #define IN_EXPLAIN (1u << COMMAND_EXPLAIN)
 #define IN_IMPORT  (1u << COMMAND_IMPORT)
@@ -24,10 +27,20 @@
 #define IN_HELP    (1u << COMMAND_HELP)
 #define IN_ALL     ((1u << COMMANDS) - 1)
 
+#define LIMITS_TEXT \
+    "--limit bounds what a scene may take, for files from strangers: file_bytes (of one file: 1G), " \
+    "memory_bytes (of a load: 8G), values (of one file: 100M), nesting (of lists and mappings: 100), " \
+    "recursion (of templates: 100), steps (objects and turns of loops: 100M), objects (shapes: 20M), " \
+    "pixels (of the picture: 268435456). k, M and G are powers of 1000, of bytes powers of 1024."
+
 /* The words of a choice stand in the order of the enum that they become. */
 const struct option_row OPTION_TABLE[OPTIONS] = {
     [OPTION_OUTPUT] = {"output", 'o', VALUE_FILE, IN_RENDER, "FILE|DIR/|PATTERN", 0, 0,
                        "where the picture goes: a file, a folder, a pattern with {name}, or -"},
+    [OPTION_DEFINE] = {"define", 'D', VALUE_PAIR, IN_RENDER | IN_CHECK, "NAME=VALUE", 0, 0,
+                       "set a parameter of the scene; a list a,b,c or a range 1..9:2 makes a sweep; repeatable"},
+    [OPTION_FRAMES] = {"frames", 0, VALUE_FRAMES, IN_RENDER, "N|A-B|A-|all", 1, 1000000,
+                       "frames of the animation; with :STEP behind it every so many"},
     [OPTION_IMPORT_OUTPUT] = {"output", 'o', VALUE_FILE, IN_IMPORT, "FILE", 0, 0,
                               "where the scene goes; - is standard output, which is the default"},
     [OPTION_SIZE] = {"size", 0, VALUE_SIZE, IN_RENDER, "WxH", 1, MONGE_MAX_SIDE,
@@ -53,6 +66,11 @@ const struct option_row OPTION_TABLE[OPTIONS] = {
                          "show a progress bar; auto: where standard error is a terminal"},
     [OPTION_FORMAT] = {"format", 0, VALUE_CHOICE, IN_RENDER | IN_CHECK, "text|json|sarif", 0, 0,
                        "how to report what is wrong: for people, or as one document for programs"},
+    [OPTION_LIMIT] = {"limit", 0, VALUE_PAIR, IN_RENDER | IN_CHECK, "NAME=VALUE", 0, 0,
+                      "what a scene may take, see above; with k, M or G; repeatable"},
+    [OPTION_UNTRUSTED] = {"untrusted", 0, VALUE_NONE, IN_RENDER | IN_CHECK, NULL, 0, 0,
+                          "the scene may include files of its own folder alone"},
+    [OPTION_JSON] = {"json", 0, VALUE_NONE, IN_INFO, NULL, 0, 0, "as JSON, one object a scene"},
     [OPTION_CHECK_ONLY] = {"check", 0, VALUE_NONE, IN_FMT, NULL, 0, 0,
                            "write nothing; list what is not formatted, exit status 1 if any"},
     [OPTION_QUIET] = {"quiet", 'q', VALUE_NONE, IN_RENDER | IN_CHECK | IN_FMT, NULL, 0, 0,
@@ -62,8 +80,17 @@ const struct option_row OPTION_TABLE[OPTIONS] = {
                            "print the completion script of a shell"},
     [OPTION_HELP] = {"help", 'h', VALUE_NONE, IN_ALL, NULL, 0, 0,
                      "show this help"},
-    [OPTION_VERSION] = {"version", 0, VALUE_NONE, IN_NONE, NULL, 0, 0, "show the version"},
+    [OPTION_VERSION] = {"version", 'V', VALUE_NONE, IN_NONE, NULL, 0, 0, "show the version"},
 };
+
+static enum status version_command(const struct arguments *args) {
+    if (args->count > 0) {
+        say_usage(COMMAND_VERSION, "version: expected nothing more, found `%s`", args->operands[0]);
+        return STATUS_TROUBLE;
+    }
+    printf("monge %s\n", monge_version());
+    return STATUS_YES;
+}
 
 const char *const STATUS_DOC[] = {
     [STATUS_YES] = "all is well",
@@ -90,17 +117,27 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                      "scene says.",
                      "-o FILE names the picture of a single scene. For several, -o DIR/ puts the "
                      "pictures into a folder, which is made where it is missing, and in a pattern "
-                     "{name} stands for NAME. A picture is complete or absent: it is written under "
-                     "a temporary name and then renamed.",
+                     "{name} stands for NAME; folders of a pattern are made too. A picture is complete "
+                     "or absent: it is written under a temporary name and then renamed.",
+                     "-D sets parameters of the scene. Lists make a sweep: -D a=1,2 -D b=x,y renders "
+                     "each a with each b, b first. Commas within brackets or quotes do not split. In a "
+                     "pattern {a} stands for the value of a; without -o pictures are called "
+                     "NAME-a=1-b=x.png.",
+                     "--frames renders frames of a scene with an `animation`; without it, the first. In "
+                     "a pattern {frame} is the number, with leading zeros; so is one %d or %04d, and %% "
+                     "is a %. Without -o, and in a folder, pictures are called NAME-0001.png.",
                      "The scene - is standard input; its picture goes to standard output unless -o "
                      "says otherwise. -o - is standard output.",
                      "With --format json or sarif everything that is wrong comes as one document on "
                      "standard error at the end, with --quiet implied; wrong usage is still told as "
-                     "text. `monge help check` tells what is in it."},
+                     "text. `monge help check` tells what is in it.",
+                     LIMITS_TEXT},
             .examples = {{"monge render king.yaml", "writes king.png"},
                          {"monge render scenes/*.yaml -o pictures/ --size 320x240", "small pictures of many"},
                          {"monge render king.yaml -o 'draft-{name}.png' --shading diffuse --no-shadows",
                           "a quick look, in draft-king.png"},
+                         {"monge render king.yaml -D roughness=0.1,0.2,0.4 -o 'king-{roughness}.png'", "three pictures"},
+                         {"monge render orbit.yaml --frames all -o orbit/", "orbit/orbit-0001.png and so on"},
                          {"generate | monge render - | display", "from a program to a program"}},
             .needs_operand = true,
             .run = render_command,
@@ -120,6 +157,8 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                      "there is not. SARIF 2.1.0: one run; failures, which have no place, are "
                      "notifications of the tool. Lines and columns count from 1, columns in characters, "
                      "an end is the first column behind.",
+                     "With lists of values, as in -D a=1,2, each combination is checked.",
+                     LIMITS_TEXT,
                      "The scene - is standard input."},
             .examples = {{"monge check --quiet scenes/*.yaml",
                           "a step of a build: silent where all is well"},
@@ -127,6 +166,24 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                           "for what shows SARIF beside the code"}},
             .needs_operand = true,
             .run = check_command,
+        },
+    [COMMAND_INFO] =
+        {
+            .name = "info",
+            .operands = "SCENE...",
+            .doc = "tell what scenes consist of, without rendering them",
+            .text = {"Reads each scene and prints what has become of it: the picture's size, the camera as it is "
+                     "framed, the lights, the bounds, how many primitives of each kind there are, the materials "
+                     "with their uses, the memory that it takes and what each template costs.",
+                     "Then the scene as a tree, each line with its place in the file. What a loop or a template "
+                     "places many times is one line with a count; of more than 20 members the rest is counted.",
+                     "Primitives are counted as they are kept, those of a template that is placed as a whole once; "
+                     "`placed` is their number with all of that carried out.",
+                     "With --json: one object for each scene, with the same. The scene - is standard input."},
+            .examples = {{"monge info king.yaml", "what king.yaml consists of"},
+                         {"monge info --json king.yaml | jq .camera", "the camera that it is framed by"}},
+            .needs_operand = true,
+            .run = info_command,
         },
     [COMMAND_EXPLAIN] =
         {
@@ -187,6 +244,15 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                           "for `# yaml-language-server: $schema=scene.schema.json` in a scene"}},
             .run = schema_command,
         },
+    [COMMAND_VERSION] =
+        {
+            .name = "version",
+            .operands = "",
+            .doc = "show the version",
+            .text = {"The same as monge --version."},
+            .examples = {{"monge version", "as `monge 1.2.3`"}},
+            .run = version_command,
+        },
     [COMMAND_HELP] =
         {
             .name = "help",
@@ -231,13 +297,11 @@ enum status command_unknown(const char *name) {
 }
 
 /* monge without a command. */
-static enum status run_alone(int argc, char **argv) {
-    struct arguments args;
-    if (!options_parse(COMMAND_NONE, argc, argv, &args)) return STATUS_TROUBLE;
-    if (args.option[OPTION_HELP].given)
+static enum status run_alone(const struct arguments *args) {
+    if (args->option[OPTION_HELP].given)
         help_print(stdout, COMMAND_NONE);
-    else if (args.option[OPTION_VERSION].given)
-        printf("monge %s\n", monge_version());
+    else if (args->option[OPTION_VERSION].given)
+        return version_command(args);
     else {
         help_print(stderr, COMMAND_NONE);
         return STATUS_TROUBLE;
@@ -245,19 +309,27 @@ static enum status run_alone(int argc, char **argv) {
     return STATUS_YES;
 }
 
-enum status command_run(int argc, char **argv) {
-    if (argc == 0 || argv[0][0] == '-') return run_alone(argc, argv);
-    const enum command_id command = command_find(argv[0]);
-    if (command == COMMAND_NONE) return command_unknown(argv[0]);
-    struct arguments args;
-    if (!options_parse(command, argc - 1, argv + 1, &args)) return STATUS_TROUBLE;
-    if (args.option[OPTION_HELP].given) {
-        help_print(stdout, command);
+static enum status run(const struct arguments *args) {
+    const struct command_row *row = &COMMAND_TABLE[args->command];
+    if (args->command == COMMAND_NONE) return run_alone(args);
+    if (args->option[OPTION_HELP].given) {
+        help_print(stdout, args->command);
         return STATUS_YES;
     }
-    if (args.count == 0 && COMMAND_TABLE[command].needs_operand) {
-        say_usage(command, "%s: no scene given", argv[0]);
+    if (args->count == 0 && row->needs_operand) {
+        say_usage(args->command, "%s: no scene given", row->name);
         return STATUS_TROUBLE;
     }
-    return COMMAND_TABLE[command].run(&args);
+    return row->run(args);
+}
+
+enum status command_run(int argc, char **argv) {
+    const bool alone = argc == 0 || argv[0][0] == '-';
+    const enum command_id command = alone ? COMMAND_NONE : command_find(argv[0]);
+    if (!alone && command == COMMAND_NONE) return command_unknown(argv[0]);
+    struct arguments args;
+    const bool good = options_parse(command, alone ? argc : argc - 1, alone ? argv : argv + 1, &args);
+    const enum status status = good ? run(&args) : STATUS_TROUBLE;
+    options_free(&args);
+    return status;
 }

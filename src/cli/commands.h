@@ -14,10 +14,12 @@ enum command_id {
     COMMAND_NONE, /* monge itself */
     COMMAND_RENDER,
     COMMAND_CHECK,
+    COMMAND_INFO,
     COMMAND_FMT,
     COMMAND_EXPLAIN,
     COMMAND_IMPORT,
     COMMAND_SCHEMA,
+    COMMAND_VERSION,
     COMMAND_HELP,
     COMMANDS
 };
@@ -25,6 +27,8 @@ enum command_id {
 enum option_id {
     OPTION_OUTPUT,
     OPTION_IMPORT_OUTPUT, /* the same words, but of a scene */
+    OPTION_DEFINE,
+    OPTION_FRAMES,
     OPTION_SIZE,
     OPTION_SAMPLES,
     OPTION_REGION,
@@ -38,6 +42,9 @@ enum option_id {
     OPTION_STATS,
     OPTION_PROGRESS,
     OPTION_FORMAT,
+    OPTION_LIMIT,
+    OPTION_UNTRUSTED,
+    OPTION_JSON,
     OPTION_CHECK_ONLY,
     OPTION_QUIET,
     OPTION_MAN,
@@ -55,6 +62,8 @@ enum value_kind {
     VALUE_SIZE,     /* WxH, each low .. high */
     VALUE_REGION,   /* X,Y,W,H: X and Y from 0, W and H low .. high */
     VALUE_CHOICE,   /* one of the words of `value` */
+    VALUE_FRAMES,   /* N, A-B, A- or all, with :STEP behind it; each low .. high */
+    VALUE_PAIR,     /* NAME=VALUE; may be given many times */
 };
 
 struct option_row {

@@ -98,7 +98,7 @@ static void print_bash(FILE *out) {
           out);
     print_codes(out);
     fputs("' -- \"$word\")\n"
-          "    elif [[ ${COMP_WORDS[1]} != schema ]]; then\n"
+          "    elif [[ ${COMP_WORDS[1]} != schema && ${COMP_WORDS[1]} != version ]]; then\n"
           "        mapfile -t COMPREPLY < <(compgen -d -- \"$word\"; compgen -f -X '!*.y*ml' -- \"$word\")\n"
           "    fi\n"
           "}\n"
@@ -220,7 +220,7 @@ static void print_fish(FILE *out) {
     print_help_words(out);
     fputs("'\ncomplete -c monge -n '__fish_seen_subcommand_from explain' -f -a '", out);
     print_codes(out);
-    fputs("'\ncomplete -c monge -n '__fish_seen_subcommand_from schema' -f\n", out);
+    fputs("'\ncomplete -c monge -n '__fish_seen_subcommand_from schema version' -f\n", out);
     for (enum command_id c = COMMAND_NONE; c < COMMANDS; c++)
         for (enum option_id o = 0; o < OPTIONS; o++)
             if (command_takes(c, o)) print_fish_option(out, c, o);

@@ -1,15 +1,42 @@
-/* Loading a scene, with everything that is wrong with it told to the report. */
+/* Loading scenes by the options that all commands share, with everything that is wrong told to the report. */
 #ifndef MONGE_CLI_LOAD_H
 #define MONGE_CLI_LOAD_H
 
+#include "cli/limits.h"
 #include "cli/report.h"
+#include "cli/sweep.h"
+
+/* How the command line wants scenes to be read. */
+struct loader {
+    struct sweep sweep;
+    struct limits limits;
+    bool untrusted;
+    struct report report;
+    bool has_input;          /* standard input has been read: */
+    struct monge_text input; /* it is wanted for each combination of the sweep */
+};
+
+/* Reads -D, --limit, --untrusted and --format. False, with the reason on stderr, when one is wrong. Either
+ * way to be ended, which writes the document of a --format to `out`; NULL: none. */
+bool loader_begin(struct loader *loader, const struct arguments *args);
+void loader_end(struct loader *loader, FILE *out);
 
 struct load {
-    struct monge_scene *scene; /* owned; NULL where there is none */
-    unsigned errors, warnings; /* of this scene */
+    struct monge_scene *scene;      /* owned; NULL where there is none */
+    struct monge_diagnostics *diag; /* of this scene; NULL: no memory */
+    unsigned errors, warnings;      /* of this scene */
     enum status status;
 };
 
-struct load load_scene(const char *path, struct report *report);
+/* Loads a scene with a combination of the sweep, at a frame (0: the first). To be closed. */
+struct load load_scene(struct loader *loader, const char *path, const struct monge_define *defines, unsigned frame);
+
+/* Moves it to another frame; the status as of a load. */
+enum status load_frame(struct loader *loader, struct load *load, unsigned frame);
+
+void load_close(struct loader *loader, struct load *load);
+
+/* Whether a picture of these settings keeps to the limits; if not, the reason is on stderr. */
+bool load_allows(const struct loader *loader, const char *path, const struct monge_settings *settings);
 
 #endif

@@ -48,6 +48,26 @@ static bool read_region(const struct option_row *row, const char *text, uint32_t
     return !*text;
 }
 
+/* N, A-B, A- or all; then perhaps :STEP. */
+static bool read_frames(const struct option_row *row, const char *text, uint32_t number[3]) {
+    number[0] = row->low;
+    number[1] = 0;
+    number[2] = 1;
+    if (strncmp(text, "all", 3) == 0) {
+        text += 3;
+    } else {
+        text = read_whole(text, row->low, row->high, &number[0]);
+        if (!text) return false;
+        if (*text != '-') number[1] = number[0];
+        else if (isdigit((unsigned char)*++text) && !(text = read_whole(text, number[0], row->high, &number[1]))) return false;
+    }
+    if (*text == ':' && !(text = read_whole(text + 1, 1, row->high, &number[2]))) return false;
+    return !*text;
+}
+
+/* NAME=VALUE; what they may be is for those to say who use them. */
+static bool read_pair(const char *text) { return *text != '=' && strchr(text, '='); }
+
 static bool read_choice(const char *choices, const char *text, unsigned *choice) {
     const size_t length = strlen(text);
     for (*choice = 0; choices; ++*choice) {
@@ -71,6 +91,8 @@ static bool read_value(const struct option_row *row, const char *text, struct op
     case VALUE_SIZE: return read_size(row, text, value->number);
     case VALUE_REGION: return read_region(row, text, value->number);
     case VALUE_CHOICE: return read_choice(row->value, text, &value->choice);
+    case VALUE_FRAMES: return read_frames(row, text, value->number);
+    case VALUE_PAIR: return read_pair(text);
     }
     return false;
 }
@@ -97,6 +119,8 @@ static void describe_value(const struct option_row *row, char *text, size_t size
     case VALUE_SIZE: snprintf(text, size, "WxH like 640x480, each from %u to %u", row->low, row->high); break;
     case VALUE_REGION: snprintf(text, size, "X,Y,W,H like 0,0,320,240, W and H from %u", row->low); break;
     case VALUE_CHOICE: describe_choice(row->value, text, size); break;
+    case VALUE_FRAMES: snprintf(text, size, "N, A-B, A- or all, perhaps with :STEP, from %u", row->low); break;
+    case VALUE_PAIR: snprintf(text, size, "%s", row->value); break;
     }
 }
 
@@ -104,7 +128,10 @@ static void describe_value(const struct option_row *row, char *text, size_t size
 static bool set_value(struct arguments *args, enum option_id option, const char *shown, const char *text) {
     const struct option_row *row = &OPTION_TABLE[option];
     char expected[128];
-    if (text && read_value(row, text, &args->option[option])) return args->option[option].given = true;
+    if (text && read_value(row, text, &args->option[option])) {
+        if (row->kind == VALUE_PAIR) args->pairs[args->pair_count++] = (struct option_pair){option, text};
+        return args->option[option].given = true;
+    }
     describe_value(row, expected, sizeof expected);
     if (text)
         say_usage(args->command, "%s: expected %s, found `%s`", shown, expected, text);
@@ -179,6 +206,11 @@ static bool parse_letters(struct arguments *args, const char *letters, struct wo
 
 bool options_parse(enum command_id command, int argc, char **argv, struct arguments *args) {
     *args = (struct arguments){.command = command, .operands = argv};
+    args->pairs = calloc((size_t)argc + 1, sizeof *args->pairs);
+    if (!args->pairs) {
+        say_error("out of memory");
+        return false;
+    }
     struct words rest = {argc, argv};
     bool options_end = false;
     while (rest.count > 0 && !args->option[OPTION_HELP].given) {
@@ -197,3 +229,5 @@ bool options_parse(enum command_id command, int argc, char **argv, struct argume
     }
     return true;
 }
+
+void options_free(struct arguments *args) { free(args->pairs); }

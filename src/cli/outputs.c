@@ -4,9 +4,11 @@
 #include <limits.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "cli/pattern.h"
 #include "cli/say.h"
 
 /* ---- Names ---- */
@@ -38,35 +40,100 @@ static char *scene_name(const char *scene) {
     return say_text("%.*s", (int)(yaml ? (size_t)(dot - base) : strlen(base)), base);
 }
 
-/* `pattern` with each {name} replaced. NULL, with the reason on stderr, for any other word in braces. */
-static char *expand(const char *pattern, const char *name) {
-    char *text = say_text("%s", "");
-    while (*pattern) {
-        const int plain = (int)strcspn(pattern, "{");
-        const bool placeholder = strncmp(pattern + plain, "{name}", 6) == 0;
-        if (pattern[plain] && !placeholder) {
-            say_usage(COMMAND_RENDER, "-o: expected {name}, found `%s`", pattern + plain);
-            free(text);
-            return NULL;
-        }
-        char *longer = say_text("%s%.*s%s", text, plain, pattern, placeholder ? name : "");
-        free(text);
-        text = longer;
-        pattern += plain + (placeholder ? 6 : 0);
-    }
-    return text;
+static char *joined(char *text, const char *more) {
+    char *longer = say_text("%s%s", text, more);
+    free(text);
+    return longer;
 }
 
-/* The path of a picture; NULL, with the reason on stderr, if `wanted` is no pattern. */
-static char *output_path(const char *wanted, const char *scene, const char *name) {
-    if (!wanted) return is_stream(scene) ? say_text("-") : say_text("%s.png", name);
-    char *path = expand(wanted, name);
-    if (!path) return NULL;
-    const bool slash = *path && path[strlen(path) - 1] == '/';
+static bool ends_in_slash(const char *path) { return *path && path[strlen(path) - 1] == '/'; }
+
+static int digits_of(unsigned number) {
+    int digits = 1;
+    while (number /= 10) digits++;
+    return digits;
+}
+
+/* What a picture is called where the user has no name for it: NAME-a=1-0001.png. */
+static char *usual_name(const struct plan *plan, const struct pattern_values *values) {
+    char *text = say_text("%s", values->name);
+    for (size_t i = 0; i < plan->sweep->count; i++) {
+        if (plan->sweep->axes[i].count == 1) continue;
+        char *safe = pattern_safe(values->defines[i].value), *part = say_text("-%s=%s", values->defines[i].name, safe);
+        text = joined(text, part);
+        free(part);
+        free(safe);
+    }
+    if (plan->frames) {
+        char *part = values->frame ? say_text("-%0*u", values->digits < 4 ? 4 : values->digits, values->frame) : say_text("-{frame}");
+        text = joined(text, part);
+        free(part);
+    }
+    return joined(text, ".png");
+}
+
+/* The path of a picture; of `frame` 0, as far as it is known without the frame. */
+static char *picture_path(const struct plan *plan, const struct output *output, unsigned frame, unsigned last) {
+    const struct pattern_values values = {.name = output->name, .defines = output->defines, .define_count = plan->sweep->count,
+                                          .frames = plan->frames != NULL, .frame = frame, .digits = digits_of(last)};
+    if (!plan->wanted) return is_stream(output->scene) ? say_text("-") : usual_name(plan, &values);
+    char *path = pattern_expand(plan->wanted, &values);
+    const bool slash = ends_in_slash(path);
     if (!slash && !is_folder(path)) return path;
-    char *inside = say_text("%s%s%s.png", path, slash ? "" : "/", name);
-    free(path);
-    return inside;
+    char *name = usual_name(plan, &values);
+    path = joined(joined(path, slash ? "" : "/"), name);
+    free(name);
+    return path;
+}
+
+/* ---- Patterns ---- */
+
+/* A pattern like the one that is wanted, in which all is told apart. */
+static char *better_pattern(const struct plan *plan) {
+    const char *wanted = plan->wanted, *dot = strrchr(wanted, '.');
+    const bool extended = dot && dot > wanted + folder_length(wanted);
+    char *text = say_text("%.*s", (int)(extended ? (size_t)(dot - wanted) : strlen(wanted)), wanted);
+    if (plan->scene_count > 1 && !pattern_has(wanted, "name")) text = joined(text, "-{name}");
+    for (size_t i = 0; i < plan->sweep->count; i++) {
+        const struct axis *axis = &plan->sweep->axes[i];
+        char *part = say_text("-{%s}", axis->name);
+        if (axis->count > 1 && !pattern_has(wanted, axis->name)) text = joined(text, part);
+        free(part);
+    }
+    if (plan->frames && !pattern_has_frame(wanted)) text = joined(text, "-{frame}");
+    return joined(text, extended ? dot : ".png");
+}
+
+static bool many_frames(const struct plan *plan) { return plan->frames && plan->frames->number[0] != plan->frames->number[1]; }
+
+/* A single file for many pictures is wrong, but for one that takes them all, as a device does. */
+static bool check_pattern(const struct plan *plan) {
+    const char *wanted = plan->wanted;
+    if (!wanted || is_stream(wanted)) return true;
+    if (!pattern_check(wanted, plan->sweep, plan->frames != NULL)) return false;
+    if (ends_in_slash(wanted) || is_folder(wanted) || is_special(wanted)) return true;
+    const bool no_frame = many_frames(plan) && !pattern_has_frame(wanted);
+    const bool one_file = plan->count > 1 && pattern_is_plain(wanted, plan->frames != NULL);
+    if (!no_frame && !one_file) return true;
+    char *pattern = better_pattern(plan);
+    char *many = no_frame ? say_text("many frames") : say_text("%zu %s", plan->count, plan->sweep->total > 1 ? "pictures" : "scenes");
+    say_usage(COMMAND_RENDER, "-o %s is one file for %s: end it in / for a folder, or write -o '%s'", wanted, many, pattern);
+    free(many);
+    free(pattern);
+    return false;
+}
+
+/* Pictures of other kinds are not written; to call one so would fool whoever opens it. */
+static bool check_extension(const char *wanted) {
+    static const char *const others[] = {"jpg", "jpeg", "gif", "bmp", "tif", "tiff", "webp", "avif", "ppm", "exr", "hdr", "tga", "svg", "pdf"};
+    const char *dot = strrchr(wanted + folder_length(wanted), '.');
+    if (!dot || is_folder(wanted) || is_special(wanted)) return true;
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
+        if (strcasecmp(dot + 1, others[i]) != 0) continue;
+        say_usage(COMMAND_RENDER, "-o %s: pictures are PNG; did you mean %.*s.png?", wanted, (int)(dot - wanted), wanted);
+        return false;
+    }
+    return true;
 }
 
 /* ---- Conflicts ---- */
@@ -74,7 +141,7 @@ static char *output_path(const char *wanted, const char *scene, const char *name
 /* A file that is to be read or written. */
 struct claim {
     char *place;      /* the same for every name of a file */
-    const char *user; /* the scene, or "--stats" */
+    const char *user; /* the scene with its values, or "--stats" */
     bool writes;
 };
 
@@ -95,49 +162,60 @@ static int compare_claims(const void *a, const void *b) {
     return order ? order : (int)q->writes - (int)p->writes;
 }
 
-static bool check_claims(const struct claim *claims, size_t count) {
-    for (size_t i = 0; i + 1 < count; i++) {
-        const struct claim *a = &claims[i], *b = &claims[i + 1];
+static void report_collision(const struct plan *plan, const struct claim *a, const struct claim *b) {
+    const bool sweep = plan->wanted && plan->sweep->total > 1;
+    char *pattern = sweep ? better_pattern(plan) : NULL;
+    if (!b->writes)
+        say_usage(COMMAND_RENDER, "%s would be written over by the output of %s", b->user, a->user);
+    else if (pattern && strcmp(pattern, plan->wanted) != 0)
+        say_usage(COMMAND_RENDER, "%s and %s would both write %s; write -o '%s'", a->user, b->user, a->place, pattern);
+    else
+        say_usage(COMMAND_RENDER, "%s and %s would both write %s", a->user, b->user, a->place);
+    free(pattern);
+}
+
+static bool check_claims(struct plan *plan) {
+    qsort(plan->claims, plan->claim_count, sizeof *plan->claims, compare_claims);
+    for (size_t i = 0; i + 1 < plan->claim_count; i++) {
+        const struct claim *a = &plan->claims[i], *b = &plan->claims[i + 1];
         if (!a->writes || strcmp(a->place, b->place) != 0) continue;
-        if (b->writes)
-            say_usage(COMMAND_RENDER, "%s and %s would both write %s", a->user, b->user, a->place);
-        else
-            say_usage(COMMAND_RENDER, "%s would be written over by the output of %s", b->user, a->user);
+        report_collision(plan, a, b);
         return false;
     }
     return true;
 }
 
-static void add_claim(struct claim *claims, size_t *count, const char *path, const char *user, bool writes) {
+/* There is room for it. */
+static void add_claim(struct plan *plan, const char *path, const char *user, bool writes) {
     if (is_stream(path) || is_special(path)) return;
-    claims[(*count)++] = (struct claim){resolve(path), user, writes};
+    plan->claims[plan->claim_count++] = (struct claim){resolve(path), user, writes};
 }
 
-static bool check_files(const char *stats, const struct output *outputs, size_t count) {
-    struct claim *claims = calloc(2 * count + 1, sizeof *claims);
-    size_t claimed = 0;
-    for (size_t i = 0; claims && i < count; i++) {
-        add_claim(claims, &claimed, outputs[i].scene, outputs[i].scene, false);
-        add_claim(claims, &claimed, outputs[i].path, outputs[i].scene, true);
-    }
-    if (claims && stats) add_claim(claims, &claimed, stats, "--stats", true);
-    if (claims) qsort(claims, claimed, sizeof *claims, compare_claims);
-    const bool good = claims && check_claims(claims, claimed);
-    if (!claims) say_error("out of memory");
-    for (size_t i = 0; i < claimed; i++) free(claims[i].place);
-    free(claims);
-    return good;
+static bool make_room(struct plan *plan, size_t more) {
+    struct claim *claims = realloc(plan->claims, (plan->claim_count + more) * sizeof *claims);
+    if (claims) plan->claims = claims;
+    else say_error("out of memory");
+    return claims != NULL;
 }
 
-static bool check_streams(const char *stats, const struct output *outputs, size_t count) {
+static bool check_files(struct plan *plan) {
+    if (!make_room(plan, plan->count * 2 + 1)) return false;
+    for (size_t i = 0; i < plan->count; i += plan->sweep->total) add_claim(plan, plan->outputs[i].scene, plan->outputs[i].scene, false);
+    for (size_t i = 0; i < plan->count; i++) add_claim(plan, plan->outputs[i].path, plan->outputs[i].title, true);
+    if (plan->stats) add_claim(plan, plan->stats, "--stats", true);
+    return check_claims(plan);
+}
+
+static bool check_streams(const struct plan *plan) {
+    const char *stats = plan->stats;
     size_t inputs = 0, pictures = 0;
-    for (size_t i = 0; i < count; i++) {
-        inputs += is_stream(outputs[i].scene);
-        pictures += is_stream(outputs[i].path);
+    for (size_t i = 0; i < plan->count; i++) {
+        inputs += i % plan->sweep->total == 0 && is_stream(plan->outputs[i].scene);
+        pictures += is_stream(plan->outputs[i].path);
     }
     if (inputs > 1)
         say_usage(COMMAND_RENDER, "standard input can be only one scene");
-    else if (pictures > 1)
+    else if (pictures > 1 || (pictures && many_frames(plan)))
         say_usage(COMMAND_RENDER, "-o -: standard output can take only one picture");
     else if (pictures && stats && is_stream(stats))
         say_usage(COMMAND_RENDER, "--stats -: standard output takes the picture");
@@ -176,36 +254,91 @@ static bool check_writable(const char *path) {
     return writable;
 }
 
-static bool check_folders(bool make, const struct output *outputs, size_t count) {
-    for (size_t i = 0; i < count; i++) {
-        if (make && !make_folder(outputs[i].path)) return false;
-        if (!check_writable(outputs[i].path)) return false;
-    }
+/* Whether -o asks for folders: a FILE does not, so that a slip of the pen makes none. */
+static bool makes_folders(const struct plan *plan) {
+    return plan->wanted && (ends_in_slash(plan->wanted) || !pattern_is_plain(plan->wanted, plan->frames != NULL));
+}
+
+static bool check_folder(const struct plan *plan, char *path) { return (!makes_folders(plan) || make_folder(path)) && check_writable(path); }
+
+/* Whether the folder is known before the frame is. */
+static bool has_known_folder(const struct output *output) {
+    const char *open = strstr(output->path, "{frame}");
+    return !open || !strchr(open, '/');
+}
+
+static bool check_folders(const struct plan *plan) {
+    for (size_t i = 0; i < plan->count; i++)
+        if (has_known_folder(&plan->outputs[i]) && !check_folder(plan, plan->outputs[i].path)) return false;
+    return !plan->stats || check_writable(plan->stats);
+}
+
+/* ---- The plan ---- */
+
+static bool make_output(struct plan *plan, const char *scene, size_t combination, struct output *output) {
+    *output = (struct output){.scene = scene, .name = scene_name(scene), .defines = calloc(plan->sweep->count + 1, sizeof *output->defines)};
+    if (!output->defines) return false;
+    sweep_combination(plan->sweep, combination, output->defines);
+    char *with = sweep_describe(plan->sweep, output->defines);
+    output->title = say_text("%s%s%s", scene, *with ? " with " : "", with);
+    free(with);
+    output->path = picture_path(plan, output, 0, 0);
     return true;
 }
 
-bool outputs_plan(const char *wanted, const char *stats, char **scenes, size_t count,
-                  struct output *outputs) {
-    for (size_t i = 0; i < count; i++) {
-        outputs[i] = (struct output){.scene = scenes[i], .name = scene_name(scenes[i])};
-        outputs[i].path = output_path(wanted, scenes[i], outputs[i].name);
-        if (!outputs[i].path) return false;
-    }
-    const bool one_file = wanted && !strstr(wanted, "{name}") && strcmp(outputs[0].path, wanted) == 0;
-    if (one_file && count > 1 && !is_stream(wanted) && !is_special(wanted)) {
-        say_usage(COMMAND_RENDER,
-                  "-o %s is one file for %zu scenes: end it in / for a folder, or put {name} in it", wanted,
-                  count);
-        return false;
-    }
-    const bool make = wanted && *wanted && wanted[strlen(wanted) - 1] == '/';
-    return check_streams(stats, outputs, count) && check_files(stats, outputs, count) &&
-           check_folders(make, outputs, count) && (!stats || check_writable(stats));
+static bool make_outputs(struct plan *plan, char **scenes) {
+    bool good = (plan->outputs = calloc(plan->count, sizeof *plan->outputs)) != NULL;
+    for (size_t i = 0; good && i < plan->count; i++)
+        good = make_output(plan, scenes[i / plan->sweep->total], i % plan->sweep->total, &plan->outputs[i]);
+    if (!good) say_error("out of memory");
+    return good;
 }
 
-void outputs_free(struct output *outputs, size_t count) {
-    for (size_t i = 0; i < count; i++) {
-        free(outputs[i].name);
-        free(outputs[i].path);
+bool plan_begin(struct plan *plan, const struct arguments *args, const struct sweep *sweep) {
+    const struct option_value *frames = &args->option[OPTION_FRAMES];
+    *plan = (struct plan){
+        .wanted = args->option[OPTION_OUTPUT].text,
+        .stats = args->option[OPTION_STATS].text,
+        .sweep = sweep,
+        .frames = frames->given ? frames : NULL,
+        .scene_count = args->count,
+        .count = args->count * sweep->total,
+    };
+    return check_pattern(plan) && (!plan->wanted || check_extension(plan->wanted)) && make_outputs(plan, args->operands) &&
+           check_streams(plan) && check_files(plan) && check_folders(plan);
+}
+
+void plan_free(struct plan *plan) {
+    for (size_t i = 0; plan->outputs && i < plan->count; i++) {
+        free(plan->outputs[i].name);
+        free(plan->outputs[i].defines);
+        free(plan->outputs[i].title);
+        free(plan->outputs[i].path);
     }
+    for (size_t i = 0; i < plan->claim_count; i++) free(plan->claims[i].place);
+    free(plan->claims);
+    free(plan->outputs);
+}
+
+static bool check_paths(struct plan *plan, const struct output *output, char **paths, size_t count) {
+    if (!make_room(plan, count)) return false;
+    for (size_t i = 0; i < count; i++) add_claim(plan, paths[i], output->title, true);
+    if (!check_claims(plan)) return false;
+    for (size_t i = 0; i < count; i++)
+        if (!check_folder(plan, paths[i])) return false;
+    return true;
+}
+
+char **plan_frames(struct plan *plan, const struct output *output, const unsigned *frames, size_t count, unsigned last) {
+    char **paths = calloc(count + 1, sizeof *paths);
+    if (!paths) say_error("out of memory");
+    for (size_t i = 0; paths && i < count; i++) paths[i] = picture_path(plan, output, frames[i], last);
+    if (!paths || strcmp(paths[0], output->path) == 0 || check_paths(plan, output, paths, count)) return paths;
+    paths_free(paths, count);
+    return NULL;
+}
+
+void paths_free(char **paths, size_t count) {
+    for (size_t i = 0; paths && i < count; i++) free(paths[i]);
+    free(paths);
 }

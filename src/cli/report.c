@@ -17,9 +17,13 @@ bool report_begin(struct report *report, const struct arguments *args) {
 
 struct monge_diagnostics *report_open(struct report *report) { return report->all ? report->all : new_diagnostics(); }
 
+void report_show(const struct report *report, struct monge_diagnostics *diag) {
+    if (diag != report->all) monge_diagnostics_print_new(diag, stderr);
+}
+
 void report_close(struct report *report, struct monge_diagnostics *diag, bool wanted) {
     if (diag == report->all) return;
-    if (wanted) monge_diagnostics_print(diag, stderr);
+    if (wanted) report_show(report, diag);
     monge_diagnostics_free(diag);
 }
 

@@ -18,7 +18,10 @@ bool report_begin(struct report *report, const struct arguments *args);
  * stderr, when there is no memory. */
 struct monge_diagnostics *report_open(struct report *report);
 
-/* Done with what report_open returned: text is printed, where it is wanted, and forgotten. */
+/* Prints text that is new in it. */
+void report_show(const struct report *report, struct monge_diagnostics *diag);
+
+/* Done with what report_open returned: new text is printed, where it is wanted, and all forgotten. */
 void report_close(struct report *report, struct monge_diagnostics *diag, bool wanted);
 
 /* Writes the document, where there is one, to `out`. */

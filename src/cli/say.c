@@ -66,10 +66,18 @@ void streams_open(void) {
 
 static int output_error; /* of stdout: the first errno, which later calls on a stream that has failed lose */
 
-void streams_flush(void) {
+/* Why a stream failed that has forgotten it: it fails again. */
+static int find_reason(void) {
+    clearerr(stdout);
     errno = 0;
-    if (fflush(stdout) == 0 && !ferror(stdout)) return;
-    if (!output_error) output_error = errno ? errno : EIO;
+    if (fputc('\n', stdout) != EOF) fflush(stdout);
+    return errno ? errno : EIO;
+}
+
+void streams_flush(void) {
+    const bool failed = ferror(stdout);
+    if (fflush(stdout) == 0 && !failed) return;
+    if (!output_error) output_error = failed ? find_reason() : errno;
 }
 
 enum status streams_close(enum status status) {

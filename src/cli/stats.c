@@ -33,11 +33,24 @@ static void print_rays(FILE *out, const uint64_t rays[MONGE_RAY_KINDS]) {
     fprintf(out, "\"total\": %" PRIu64 "}", total);
 }
 
+static void print_params(FILE *out, const struct picture *p) {
+    fputs(", \"params\": {", out);
+    for (size_t i = 0; i < p->define_count; i++) {
+        fputs(i > 0 ? ", " : "", out);
+        monge_write_json_string(p->defines[i].name, out);
+        fputs(": ", out);
+        monge_write_json_string(p->defines[i].value, out);
+    }
+    fputs("}", out);
+}
+
 static void print_picture(FILE *out, const struct picture *p) {
     fputs("    {\"scene\": ", out);
     monge_write_json_string(p->scene, out);
     fputs(", \"output\": ", out);
     monge_write_json_string(p->output, out);
+    if (p->frame) fprintf(out, ", \"frame\": %u", p->frame);
+    if (p->define_count > 0) print_params(out, p);
     if (!p->done) {
         fputs(", \"error\": true}", out);
         return;

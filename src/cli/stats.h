@@ -5,8 +5,12 @@
 #include "monge.h"
 
 struct picture {
-    const char *scene, *output; /* as the user knows them; "-" for the standard streams */
-    bool done;                  /* else the rest means nothing */
+    const char *scene; /* as the user knows it; "-" for the standard streams, here and in output */
+    char *output;      /* owned */
+    unsigned frame;    /* 0: --frames is not given */
+    const struct monge_define *defines;
+    size_t define_count;
+    bool done; /* else the rest means nothing */
     struct monge_settings settings;
     struct monge_region region; /* what was rendered of it: the size of the file */
     struct monge_stats stats;

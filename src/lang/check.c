@@ -20,7 +20,7 @@ static void collect(struct checker *ck, void *context) {
     struct collection *c = context;
     const struct node *when = node_resolve(c->item)->kind == NODE_MAPPING ? node_get(node_resolve(c->item), "when") : NULL;
     bool holds = true;
-    if (ck->stopped || ++ck->steps > ck->input->limits.steps) return; /* reported by place.c, or with the next object */
+    if (!place_count_step(ck, c->item)) return;
     if (when && grammar_find_key(c->kind, "when") >= 0 && loop_condition(ck, when, &holds) == QUANTITY_OK && !holds) return;
     struct object_value *object = check_object(ck, c->kind, c->item);
     if (!object) return;
@@ -178,15 +178,23 @@ static bool check_value(struct checker *ck, const struct grammar_key *key, const
     ck->scope = b->scope;
     ck->diag->frame = &frame;
     const bool good = check_value(ck, key, b->node, out);
+    out->computed = true;
     ck->diag->frame = frame.outer;
     ck->scope = outer;
     ck->depth--;
     return good;
 }
 
+static bool node_is_number(const struct node *node) {
+    const struct node *n = node_resolve(node);
+    return n->kind == NODE_SCALAR && scalar_is_number(n->text);
+}
+
 static bool check_written(struct checker *ck, const struct grammar_key *key, const struct node *node, struct value *out) {
     switch (key->type) {
-    case GRAMMAR_NUMBER: return check_number(ck, key, node, &out->number);
+    case GRAMMAR_NUMBER:
+        out->computed = !node_is_number(node);
+        return check_number(ck, key, node, &out->number);
     case GRAMMAR_INTEGER: return check_integer(ck, key, node, &out->number);
     case GRAMMAR_BOOLEAN: return check_boolean(ck, key, node, &out->choice);
     case GRAMMAR_CHOICE: return check_choice(ck, key, node, &out->choice);
@@ -244,7 +252,8 @@ static void check_unknown(struct checker *ck, struct object_value *object, struc
     mapping->meant[index] = true;
     const struct grammar_key *key = &object->kind->keys[index];
     const struct value *value = again ? NULL : check_field(ck, object->kind, key, name);
-    if (value && key->type == GRAMMAR_LIST && key->of == &grammar_kinds[KIND_OBJECT])
+    const bool knows_names = object->kind != &grammar_kinds[KIND_TEMPLATE]; /* its parameters are not in scope here */
+    if (value && knows_names && key->type == GRAMMAR_LIST && key->of == &grammar_kinds[KIND_OBJECT])
         place_members(ck, (int)(object->kind - grammar_kinds), index, value->node);
 }
 

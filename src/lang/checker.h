@@ -195,6 +195,9 @@ void place_list(struct checker *ck, const struct node *list);
 /* The same of the value of a key, both by their numbers, so that messages know where it stands. */
 void place_members(struct checker *ck, int kind, int key, const struct node *list);
 
+/* One more object looked at, or turn of a loop: false, and reported, past the limit. */
+bool place_count_step(struct checker *ck, const struct node *node);
+
 /* What a parameter is where nobody sets it, of the value that it is declared with. */
 const struct node *place_default(const struct node *declared);
 

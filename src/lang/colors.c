@@ -172,7 +172,7 @@ bool check_color(struct checker *ck, const struct grammar_key *key, const struct
     if (n->kind == NODE_SCALAR && color_parse(n->text, out)) return true;
     const bool number = n->kind == NODE_SCALAR && starts_like_number(n->text);
     if (number && key->type == GRAMMAR_AMOUNT) return check_grey(ck, key, node, out);
-    const bool written = n->kind == NODE_SCALAR && (n->count == 0 || n->text[0] == '#' || scalar_is_number(n->text) || strncmp(n->text, "rgb(", 4) == 0);
+    const bool written = n->kind == NODE_SCALAR && (n->count == 0 || n->text[0] == '#' || scalar_is_number(n->text));
     const enum quantity_result result = written ? QUANTITY_NONE : read_color(ck, key, node, out);
     if (result != QUANTITY_NONE) return result == QUANTITY_OK || (result == QUANTITY_UNKNOWN && ck->rehearsing);
     if (n->kind == NODE_SCALAR && n->count > 0 && !number) report_no_color_name(ck, key, node);

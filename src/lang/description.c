@@ -2,6 +2,8 @@
 
 #include <string.h>
 
+#include "lang/checker.h"
+
 bool object_has(const struct object_value *object, int key) { return object->fields[key] != NULL; }
 
 double object_number(const struct object_value *object, int key) {
@@ -20,6 +22,21 @@ vec3 object_vec3(const struct object_value *object, int key) {
 
 const char *object_text(const struct object_value *object, int key) {
     return object->fields[key] ? object->fields[key]->text : NULL;
+}
+
+const char *object_reference(const struct object_value *object, int key, uint32_t *number) {
+    const struct definition *definition = object->fields[key] ? object->fields[key]->definition : NULL;
+    if (definition) *number = definition->number;
+    return definition ? definition->name : NULL;
+}
+
+const char *object_names(struct arena *arena, const struct object_value *object, int key) {
+    const struct node *node = object->fields[key] ? node_resolve(object->fields[key]->node) : NULL;
+    const char *text = "";
+    if (!node || node->kind != NODE_MAPPING) return NULL;
+    for (const struct node *name = node->first; name; name = name->next->next)
+        text = arena_format(arena, "%s%s%s", text, *text ? ", " : "", node_resolve(name)->text);
+    return text;
 }
 
 const affine *object_matrix(const struct object_value *object, int key) {

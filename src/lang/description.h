@@ -37,6 +37,7 @@ struct value {
         struct definition *definition; /* lang/: name */
     };
     bool is_object; /* a mapping stands where a colour might */
+    bool computed;  /* a number that is not written as such: by an expression, a variable or keyframes */
 };
 
 struct object_value {
@@ -55,6 +56,10 @@ double object_number(const struct object_value *object, int key); /* also intege
 int object_choice(const struct object_value *object, int key);    /* also booleans: 0 or 1 */
 vec3 object_vec3(const struct object_value *object, int key);
 const char *object_text(const struct object_value *object, int key);            /* NULL: not given */
+/* The name of a definition that a key of type name gives, and its number among its kind; NULL: not given. */
+const char *object_reference(const struct object_value *object, int key, uint32_t *number);
+/* The names in a value of type ranges or values, as "i, j", in the arena; NULL: not given. */
+const char *object_names(struct arena *arena, const struct object_value *object, int key);
 const affine *object_matrix(const struct object_value *object, int key);        /* NULL: not given */
 struct object_value *object_object(const struct object_value *object, int key); /* NULL: not given, or not a mapping */
 struct object_list object_list(const struct object_value *object, int key);

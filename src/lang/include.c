@@ -75,9 +75,34 @@ static bool is_allowed(struct checker *ck, const struct node *node, const char *
 
 /* ---- Reading ---- */
 
-static struct unit *find_unit(const struct checker *ck, const struct stat *file) {
+/* A file that is included, as it was when it was first asked for. */
+struct included {
+    uint64_t device, inode;
+    const struct source *source; /* NULL: not read yet */
+};
+
+/* NULL: reported. */
+static struct included *find_file(struct checker *ck, const struct node *node, const char *path) {
+    struct lang_files *files = ck->input->files;
+    struct included *file = table_find(&files->included, path);
+    struct stat status;
+    if (file) return file;
+    if (!is_allowed(ck, node, path)) return NULL;
+    errno = 0;
+    if (stat(path, &status) != 0 || S_ISDIR(status.st_mode)) {
+        if (!errno) errno = EISDIR;
+        report_missing(ck, node, path);
+        return NULL;
+    }
+    file = arena_alloc(files->arena, sizeof *file);
+    *file = (struct included){.device = (uint64_t)status.st_dev, .inode = (uint64_t)status.st_ino};
+    table_put(files->arena, &files->included, arena_text(files->arena, path, strlen(path)), file);
+    return file;
+}
+
+static struct unit *find_unit(const struct checker *ck, const struct included *file) {
     struct unit *u = ck->units;
-    while (u && !(u->device == (uint64_t)file->st_dev && u->inode == (uint64_t)file->st_ino && u->inode)) u = u->next;
+    while (u && !(u->device == file->device && u->inode == file->inode && u->inode)) u = u->next;
     return u;
 }
 
@@ -86,13 +111,14 @@ static bool is_around(const struct unit *unit, const struct unit *wanted) {
     return unit != NULL;
 }
 
-static struct unit *read_unit(struct checker *ck, const struct unit *includer, const struct node *node, const char *path, const struct stat *file) {
+static struct unit *read_unit(struct checker *ck, const struct unit *includer, const struct node *node, const char *path, struct included *file) {
     struct arena *arena = &ck->memory->kept;
-    const struct source *source = file_read(arena, ck->diag, path, ck->input->limits.file_bytes);
+    if (!file->source) file->source = file_read(ck->input->files->arena, ck->diag, path, ck->input->limits.file_bytes);
+    const struct source *source = file->source;
     if (!source) return NULL;
     struct unit *unit = arena_alloc(arena, sizeof *unit);
     *unit = (struct unit){.source = source, .path = path, .includer = includer, .include = node->span,
-                          .device = (uint64_t)file->st_dev, .inode = (uint64_t)file->st_ino, .next = ck->units};
+                          .device = file->device, .inode = file->inode, .next = ck->units};
     ck->units = unit;
     const struct node_limits limits = {ck->input->limits.nesting, ck->input->limits.values};
     struct node_problem problem = {0};
@@ -108,19 +134,15 @@ static void include_file(struct checker *ck, const struct unit *unit, const stru
         return;
     }
     const char *path = path_from(ck, unit, n->text);
-    struct stat file;
-    if (!is_allowed(ck, node, path)) return;
-    errno = 0;
-    if (stat(path, &file) != 0 || S_ISDIR(file.st_mode)) {
-        if (!errno) errno = EISDIR;
-        report_missing(ck, node, path);
+    struct included *file = find_file(ck, node, path);
+    if (!file) {
         lose_names(ck);
         return;
     }
-    const struct unit *known = find_unit(ck, &file);
+    const struct unit *known = find_unit(ck, file);
     if (known && is_around(unit, known)) report_cycle(ck, unit, known, node);
     if (known || !place_descend(ck, node->span)) return;
-    struct unit *included = read_unit(ck, unit, node, path, &file);
+    struct unit *included = read_unit(ck, unit, node, path, file);
     if (included && included->root->kind == NODE_MAPPING) define_names(ck, included);
     else lose_names(ck);
     if (included && included->root->kind != NODE_MAPPING) report_no_definitions(ck, included);

@@ -91,34 +91,65 @@ static struct object_list named_materials(struct checker *ck) {
     return list;
 }
 
-static void set_up(struct checker *ck, struct lang_memory *memory) {
+/* What stays of a reading, for lang_read_frame. */
+struct reading {
+    struct checker checker;
+    struct lang_input input;
+    struct lang_files files; /* where the input has none */
+    struct unit *scene;
+};
+
+static struct reading *begin_reading(struct lang_memory *memory, struct diagnostics *diag, const struct lang_input *input) {
     memory->kept.parent = memory->scratch.parent = &memory->nodes;
-    ck->parameters_end = &ck->first_parameter;
-    ck->arena = &memory->scratch;
+    struct reading *reading = arena_alloc(&memory->kept, sizeof *reading);
+    reading->input = *input;
+    if (!input->frame) reading->input.frame = 1;
+    if (!input->files) reading->input.files = &reading->files;
+    reading->files.arena = &memory->kept;
+    reading->checker = (struct checker){.arena = &memory->scratch, .memory = memory, .diag = diag, .input = &reading->input, .provisional = true};
+    reading->checker.parameters_end = &reading->checker.first_parameter;
+    return reading;
+}
+
+/* The file itself does not count as moving: lang_read_frame can read it again. */
+static struct object_value *read_file(struct checker *ck, struct arena *arena, const struct unit *unit) {
+    struct arena *before = ck->arena;
+    const bool moved = ck->moved;
+    ck->arena = arena;
+    struct object_value *file = check_object(ck, &grammar_kinds[KIND_FILE], unit->root);
+    ck->arena = before;
+    ck->moved = moved;
+    return file;
 }
 
 struct lang_result lang_read(struct lang_memory *memory, struct diagnostics *diag, const struct lang_input *input) {
-    struct lang_input framed = *input;
-    if (!framed.frame) framed.frame = 1;
-    struct checker ck = {.memory = memory, .diag = diag, .input = &framed, .provisional = true};
+    struct reading *reading = begin_reading(memory, diag, input);
+    struct checker *ck = &reading->checker;
     const unsigned errors = diag->errors;
-    set_up(&ck, memory);
-    struct unit *unit = read_scene(&ck);
+    struct unit *unit = reading->scene = read_scene(ck);
     if (!unit) return (struct lang_result){0};
-    ck.provisional = false;
-    define_names(&ck, unit);
-    const bool objects_moved = ck.moved;
-    ck.moved = false;
-    ck.arena = &memory->kept;
-    struct object_value *file = check_object(&ck, &grammar_kinds[KIND_FILE], unit->root);
-    ck.arena = &memory->scratch;
-    ck.moved = objects_moved;
-    if (file && file->fields[KEY_FILE_SCENE]) place_members(&ck, KIND_FILE, KEY_FILE_SCENE, file->fields[KEY_FILE_SCENE]->node);
-    if (file) check_included(&ck);
-    if (file) define_check_given(&ck);
+    ck->provisional = false;
+    define_names(ck, unit);
+    struct object_value *file = read_file(ck, &memory->kept, unit);
+    if (file && file->fields[KEY_FILE_SCENE]) place_members(ck, KIND_FILE, KEY_FILE_SCENE, file->fields[KEY_FILE_SCENE]->node);
+    if (file) check_included(ck);
+    if (file) define_check_given(ck);
     if (file) file->failed = diag->errors != errors;
-    if (file && !file->failed) define_warn_unused(&ck);
-    const unsigned frames = ck.animation ? (unsigned)object_number(ck.animation, KEY_ANIMATION_FRAMES) : 0;
-    ck.arena = &memory->kept;
-    return (struct lang_result){file, named_materials(&ck), ck.moved, frames};
+    if (file && !file->failed) define_warn_unused(ck);
+    const unsigned frames = ck->animation ? (unsigned)object_number(ck->animation, KEY_ANIMATION_FRAMES) : 0;
+    ck->arena = &memory->kept;
+    return (struct lang_result){file, named_materials(ck), ck->moved, frames, ck};
+}
+
+void lang_read_frame(struct lang_result *result, struct diagnostics *diag, unsigned frame) {
+    struct checker *ck = result->reading;
+    struct reading *reading = (struct reading *)ck; /* its first member */
+    const unsigned errors = diag->errors;
+    arena_free(&ck->memory->scratch);
+    reading->input.frame = frame;
+    ck->diag = diag;
+    ck->steps = 0;
+    struct object_value *file = read_file(ck, &ck->memory->scratch, reading->scene);
+    if (file) file->failed = diag->errors != errors;
+    result->file = file;
 }

@@ -3,6 +3,7 @@
 #define MONGE_LANG_LANG_H
 
 #include "base/hash.h"
+#include "base/table.h"
 #include "lang/description.h"
 
 struct lang_limits {
@@ -27,17 +28,27 @@ struct lang_sink {
     void (*shape)(void *context, const struct object_value *object);
     void (*open_group)(void *context, const struct object_value *object);
     void (*close_group)(void *context);
-    /* `template` and its arguments, as a hash: uses of equal hash have equal objects. NULL: this use
-     * is like no other. */
-    enum lang_use (*open_use)(void *context, const struct object_value *object, const struct hash *contents);
+    /* The template and its arguments as a hash. exact: uses of equal hash have equal objects; else it
+     * is of the template alone, and the objects may be others each time. */
+    enum lang_use (*open_use)(void *context, const struct object_value *object, const struct hash *contents, bool exact);
     bool (*close_use)(void *context); /* true: read the objects once more, and close again */
     /* What was placed since the mark is taken back. */
     void (*mark)(void *context);
     void (*take_back)(void *context);
 };
 
+/* What a template in use was given, as "depth = 3", in the arena: of the frame that is under way while the sink
+ * opens it. */
+const char *lang_use_arguments(struct arena *arena, const struct diag_frame *frame);
+
 struct lang_define {
     const char *name, *value; /* of `-D name=value` */
+};
+
+/* What a scene includes, by path: read once, however often the scene is. Zeroed, but for the arena. */
+struct lang_files {
+    struct arena *arena;
+    struct table included;
 };
 
 struct lang_input {
@@ -48,6 +59,7 @@ struct lang_input {
     size_t define_count;
     unsigned frame; /* of an animation, from 1; 0: the first */
     bool untrusted; /* includes stay in the folder of the scene */
+    struct lang_files *files; /* NULL: nothing has been read yet */
     const struct lang_sink *sink;
 };
 
@@ -60,15 +72,23 @@ struct lang_memory {
 };
 void lang_memory_free(struct lang_memory *memory);
 
+struct checker;
+
 struct lang_result {
     const struct object_value *file; /* NULL when nothing can be said of the text as a scene */
     struct object_list materials;    /* all that have names, by their `definition` */
     bool moves;                      /* an object depends on the frame */
     unsigned frames;                 /* of the animation; 0: there is none */
+    struct checker *reading;         /* for lang_read_frame */
 };
 
 /* Reads the scene, all its mistakes reported to `diag`; diag tells whether it was right. The objects go
  * to the sink; the rest is the result, which lives in `memory`. */
 struct lang_result lang_read(struct lang_memory *memory, struct diagnostics *diag, const struct lang_input *input);
+
+/* The file's settings, camera and lights at another frame, of a scene that was right and whose objects do not
+ * move; its memory, and what its input points to but for the sink, are still there. *result is renewed, and
+ * good until the next call. */
+void lang_read_frame(struct lang_result *result, struct diagnostics *diag, unsigned frame);
 
 #endif

@@ -44,11 +44,17 @@ static const char *turn_text(struct arena *arena, const struct diag_frame *frame
 
 static void run_variables(struct loop *loop, const struct node *name);
 
+/* The variables after `name`. The turns of the last are counted as its objects. */
+static void run_rest(struct loop *loop, const struct node *name) {
+    const struct node *next = name->next->next;
+    if (!next || place_count_step(loop->ck, next)) run_variables(loop, next);
+}
+
 static void run_turn(struct loop *loop, const struct node *name, struct quantity value) {
     struct binding *b = &loop->bindings[loop->scope.count];
     *b = (struct binding){.name = node_resolve(name)->text, .kind = loop->ck->rehearsing ? BINDING_UNKNOWN : BINDING_QUANTITY, .quantity = value};
     loop->scope.count++;
-    run_variables(loop, name->next->next);
+    run_rest(loop, name);
     loop->scope.count--;
 }
 
@@ -96,30 +102,36 @@ static bool run_range(struct loop *loop, const struct node *name) {
     return run_numbers(loop, name, from, step, floor((to - from) / step * (1.0 + 1e-12) + 1e-9) + 1.0);
 }
 
-static bool run_list(struct loop *loop, const struct node *name) {
+/* `scope`: of the names in the list. */
+static bool run_list(struct loop *loop, const struct node *name, const struct node *list, const struct scope *scope) {
     struct checker *ck = loop->ck;
-    bool good = true;
-    for (const struct node *item = node_resolve(name->next)->first; item && !ck->stopped; item = item->next) {
+    const struct scope *here = ck->scope;
+    for (const struct node *item = list->first; item && !ck->stopped; item = item->next) {
         struct binding *b = &loop->bindings[loop->scope.count];
-        good &= scope_bind(ck, node_resolve(name)->text, item, b);
-        if (!good) break;
+        ck->scope = scope;
+        const bool good = scope_bind(ck, node_resolve(name)->text, item, b);
+        ck->scope = here;
+        if (!good) return false;
         loop->scope.count++;
-        run_variables(loop, name->next->next);
+        run_rest(loop, name);
         loop->scope.count--;
     }
-    return good;
+    return true;
+}
+
+static bool run_vector(struct loop *loop, const struct node *name, const struct quantity *q) {
+    for (unsigned i = 0; i < q->count && !loop->ck->stopped && !loop->ck->waiting; i++) run_turn(loop, name, (struct quantity){1, {q->v[i]}});
+    return true;
 }
 
 static bool run_variable(struct loop *loop, const struct node *name) {
+    struct checker *ck = loop->ck;
     const struct node *n = node_resolve(name->next);
-    const struct binding *b = scope_stands_for(loop->ck, n); /* a list by its name */
-    if (b && b->kind == BINDING_NODE && node_resolve(b->node)->kind == NODE_SEQUENCE) {
-        struct node stand_in[2] = {*name, *node_resolve(b->node)};
-        stand_in[0].next = &stand_in[1];
-        stand_in[1].next = name->next->next;
-        return run_list(loop, &stand_in[0]);
-    }
-    if (n->kind == NODE_SEQUENCE) return run_list(loop, name);
+    const struct binding *b = n->kind == NODE_SCALAR && scope_is_name(n->text) ? scope_find(ck, n->text) : NULL;
+    const struct node *list = b && b->kind == BINDING_NODE ? node_resolve(b->node) : NULL;
+    if (b && b->kind == BINDING_QUANTITY && b->quantity.count > 1) return run_vector(loop, name, &b->quantity);
+    if (list && list->kind == NODE_SEQUENCE) return run_list(loop, name, list, b->scope);
+    if (n->kind == NODE_SEQUENCE) return run_list(loop, name, n, ck->scope);
     return n->kind == NODE_MAPPING && !keyframes_is(n) ? run_range(loop, name) : run_count(loop, name);
 }
 

@@ -21,7 +21,7 @@ bool place_descend(struct checker *ck, struct span span) {
 }
 
 /* What a file writes out is bounded by its size: only what is repeated counts. */
-static bool count_step(struct checker *ck, const struct node *node) {
+bool place_count_step(struct checker *ck, const struct node *node) {
     if (ck->stopped) return false;
     if (ck->depth == 0 && !ck->scope) return true;
     if (++ck->steps <= ck->input->limits.steps) return true;
@@ -50,8 +50,11 @@ void place_list(struct checker *ck, const struct node *list) {
 
 void place_members(struct checker *ck, int kind, int key, const struct node *list) {
     const struct surrounding outer = ck->around;
+    struct arena *arena = ck->arena;
     ck->around = (struct surrounding){&grammar_kinds[kind], &grammar_kinds[kind].keys[key]};
+    ck->arena = &ck->memory->scratch; /* each object leaves nothing behind */
     place_list(ck, list);
+    ck->arena = arena;
     ck->around = outer;
 }
 
@@ -67,6 +70,10 @@ static const char *use_text(struct arena *arena, const struct diag_frame *frame)
     const struct use *use = (const struct use *)frame;
     const char *with = loop_bindings_text(arena, use->arguments);
     return *with ? arena_format(arena, "`%s` is used here, with %s", use->name, with) : arena_format(arena, "`%s` is used here", use->name);
+}
+
+const char *lang_use_arguments(struct arena *arena, const struct diag_frame *frame) {
+    return frame && frame->text == use_text ? loop_bindings_text(arena, ((const struct use *)frame)->arguments) : "";
 }
 
 /* The value of a parameter where it is declared: the mapping's `default`, or the value itself. */
@@ -126,7 +133,7 @@ static bool bind_arguments(struct checker *ck, const struct node *parameters, co
     return good;
 }
 
-/* What the objects of the use depend on. False: on more than can be told. */
+/* What the objects of the use depend on. False: on more than can be told, *hash is of the template. */
 static bool use_contents(const struct definition *template, const struct scope *arguments, struct hash *hash) {
     hash_begin(hash);
     hash_integer(hash, template->number);
@@ -143,6 +150,8 @@ static bool use_contents(const struct definition *template, const struct scope *
             hash_integer(hash, n->count);
             hash_bytes(hash, n->text, n->count);
         } else {
+            hash_begin(hash);
+            hash_integer(hash, template->number);
             return false;
         }
     }
@@ -152,13 +161,13 @@ static bool use_contents(const struct definition *template, const struct scope *
 static void open_template(struct checker *ck, const struct object_value *object, const struct definition *template, const struct scope *arguments) {
     const struct lang_sink *sink = ck->input->sink;
     struct hash contents;
-    const bool known = use_contents(template, arguments, &contents);
+    const bool exact = use_contents(template, arguments, &contents);
     if (!place_descend(ck, object_span(object, KEY_OBJECT_USE))) return;
     struct use use = {{object_span(object, KEY_OBJECT_USE), use_text, ck->diag->frame}, template->name, arguments};
     const struct scope *outer = ck->scope;
     ck->scope = arguments;
     ck->diag->frame = &use.frame;
-    bool again = is_live(ck) && sink->open_use(sink->context, object, known ? &contents : NULL) == LANG_USE_READ;
+    bool again = is_live(ck) && sink->open_use(sink->context, object, &contents, exact) == LANG_USE_READ;
     while (again) {
         place_members(ck, KIND_TEMPLATE, KEY_TEMPLATE_OBJECTS, values_of(template->object, KEY_TEMPLATE_OBJECTS));
         again = sink->close_use(sink->context) && is_live(ck);
@@ -216,7 +225,7 @@ static void rehearse(struct checker *ck, const struct node *node) {
 /* The object as it is in this turn. */
 static void place_turn(struct checker *ck, void *context) {
     const struct node *node = context, *n = node_resolve(node), *when = node_get(n, "when");
-    if (!count_step(ck, node)) return;
+    if (!place_count_step(ck, node)) return;
     const struct arena_mark before = arena_mark(ck->arena);
     bool holds = true;
     const enum quantity_result known = when && !node_is_null(when) ? loop_condition(ck, when, &holds) : QUANTITY_OK;

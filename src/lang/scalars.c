@@ -129,7 +129,7 @@ static void report_no_number(struct checker *ck, const struct grammar_key *key, 
         diag_note(ck->diag, d, "one number serves all three axes here; stretch the object by `scale` in its `transform`");
     if (n->kind == NODE_SEQUENCE && n->count == 1) diag_help(ck->diag, d, "remove the brackets");
     if (n->kind == NODE_SCALAR && n->count <= 100 && !value) help_scalar(ck, d, n->text);
-    if (n->kind == NODE_MAPPING && !value) diag_help(ck->diag, d, "values over time are written {keys: {1: 0, 24: 1}}");
+    if (n->kind == NODE_MAPPING && !value && ck->animation) diag_help(ck->diag, d, "values over time are written {keys: {1: 0, 24: 1}}");
     if (value && value->count == 3 && n->kind == NODE_SCALAR) diag_help(ck->diag, d, "take a part of it: .x, .y, .z, .r, .g or .b, or its length(v)");
 }
 

@@ -41,7 +41,7 @@ static const struct binding *find_moving(struct checker *ck, const char *name) {
 /* Whether a name that is not there yet can be that of a parameter, or of the animation. */
 static bool may_come(const char *name) { return which_moving(name) < 3 || !define_name_taken(name); }
 
-const struct binding *scope_find(struct checker *ck, const char *name) {
+static const struct binding *find(struct checker *ck, const char *name) {
     for (const struct scope *s = ck->scope; s; s = s->outer)
         for (unsigned i = s->count; i-- > 0;)
             if (strcmp(s->bindings[i].name, name) == 0) return &s->bindings[i];
@@ -50,6 +50,13 @@ const struct binding *scope_find(struct checker *ck, const char *name) {
     const struct binding *found = find_moving(ck, name);
     if (!found && ck->provisional && may_come(name)) ck->waiting = true;
     return found;
+}
+
+/* In a rehearsal no variable has a value: it may be of a turn that there is not. */
+const struct binding *scope_find(struct checker *ck, const char *name) {
+    static const struct binding unknown = {.name = "", .kind = BINDING_UNKNOWN};
+    const struct binding *b = find(ck, name);
+    return b && ck->rehearsing ? &unknown : b;
 }
 
 static const char *frame_text(struct arena *arena, const struct diag_frame *frame) {
@@ -151,7 +158,7 @@ static bool looks_computed(const struct node *n) {
     if (n->text[strspn(n->text, "+-.0123456789 ")] == '%' && n->text[n->count - 1] == '%') return false; /* a percentage */
     for (const char *c = n->text; *c; c++)
         if (iscntrl((unsigned char)*c)) return false;
-    return strpbrk(n->text, "*/()<>?^=&|[%") || strstr(n->text, " + ") || strstr(n->text, " - ");
+    return strpbrk(n->text, "*/()<>?^=&|[%") || strstr(n->text, " +") || strstr(n->text, " -");
 }
 
 static enum quantity_result rehearse(struct checker *ck, const struct expr *expr, const struct expr_scope *scope,
@@ -164,7 +171,7 @@ static enum quantity_result rehearse(struct checker *ck, const struct expr *expr
 
 static enum quantity_result scalar_quantity(struct checker *ck, const char *what, const struct node *n, struct quantity *out) {
     struct expr_error error = {0};
-    if (n->count == 0 || (n->quoted && n->text[0] == '#')) return QUANTITY_NONE;
+    if (n->count == 0) return QUANTITY_NONE;
     const struct expr *expr = parse(ck, n, &error);
     if (!expr) return looks_computed(n) ? report(ck, what, n, &error) : QUANTITY_NONE;
     const struct expr_scope scope = scope_names(ck);

@@ -269,6 +269,13 @@ static bool merge_all(struct reader *rd, struct node *mapping) {
 
 static struct node *read_node(struct reader *rd);
 
+/* An item that anchors name stays. */
+static void settle(struct node *node) {
+    node->passing = false;
+    if (node->kind != NODE_SEQUENCE && node->kind != NODE_MAPPING) return;
+    for (struct node *child = node->first; child; child = child->next) settle(child);
+}
+
 /* The items of the streamed list, of which those stay that its reader wants to keep or that anchors
  * name; the current event starts the list. */
 static bool read_streamed(struct reader *rd, struct node *list) {
@@ -288,7 +295,9 @@ static bool read_streamed(struct reader *rd, struct node *list) {
         const bool done = !rd->is_beyond && stream->item(stream->context, item);
         if (done && rd->anchor_count == anchors) {
             arena_release(rd->arena, before);
-        } else if (!done) {
+        } else if (done) {
+            settle(item);
+        } else {
             *tail = item;
             tail = &item->next;
             list->count++;

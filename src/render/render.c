@@ -44,12 +44,13 @@ static vec3 *sample_places(struct arena *arena, uint32_t count) {
     return places;
 }
 
-/* A key light above the camera's left shoulder, and a weak one in its eye, whose shadows it cannot see. */
+/* A key light above the camera's left shoulder, so far away that it lights an endless floor evenly up to the
+ * horizon, and a weak one in its eye, whose shadows it cannot see. */
 static struct light *default_lights(struct arena *arena, const struct view *view, uint32_t *count) {
     struct light *lights = arena_array(arena, 2, sizeof *lights);
-    const vec3 right = vec3_scale(vec3_normalize(view->right), view->distance);
-    const vec3 up = vec3_scale(vec3_normalize(view->up), view->distance);
-    lights[0] = (struct light){LIGHT_POINT, vec3_add(view->eye, vec3_madd(vec3_scale(right, -0.6), 0.8, up)), {0.95, 0.93, 0.9}};
+    const vec3 across = vec3_madd(vec3_scale(vec3_normalize(view->right), -0.6), 0.8, vec3_normalize(view->up));
+    const vec3 to_key = vec3_scale(vec3_sub(across, view->forward), 1000.0 * view->distance);
+    lights[0] = (struct light){LIGHT_POINT, vec3_add(view->eye, to_key), {0.95, 0.93, 0.9}};
     lights[1] = (struct light){LIGHT_POINT, view->eye, {0.15, 0.17, 0.2}};
     *count = 2;
     return lights;

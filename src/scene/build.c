@@ -35,11 +35,20 @@ void level_push(struct builder *b, struct level level) {
 }
 
 void level_open(struct builder *b, const struct object_value *object, struct placed *placed) {
-    level_push(b, (struct level){.world_from_node = world_from_object(b, object), .material = material_of_object(b, object), .placed = placed});
+    const char *name = object_text(object, KEY_OBJECT_NAME);
+    level_push(b, (struct level){.world_from_node = world_from_object(b, object),
+                                 .material = material_of_object(b, object),
+                                 .placed = placed,
+                                 .own = object_object(object, KEY_OBJECT_MATERIAL),
+                                 .own_span = object_span(object, KEY_OBJECT_MATERIAL),
+                                 .count = b->set->primitives.count,
+                                 .name = name ? name : b->level->name,
+                                 .template = object_has(object, KEY_OBJECT_USE) ? place_template(b, object) : b->level->template});
 }
 
 void level_close(struct builder *b) {
     struct level *level = b->level;
+    if (level->own && b->set->primitives.count > level->count) material_hold(b, level->own, level->own_span);
     b->level = level->outer;
     level->outer = b->free_levels;
     b->free_levels = level;
@@ -51,7 +60,9 @@ static void add_shape(void *context, const struct object_value *object) {
     struct builder *b = context;
     const struct object_value *bounds = object_object(object, KEY_OBJECT_BOUNDS);
     const struct object_value *shape = object_object(object, object_alternative(object));
-    if (shape) shape_build(b, shape, bounds, world_from_object(b, object), material_index(b, material_of_object(b, object)));
+    if (!shape) return;
+    place_origin(b, object);
+    shape_build(b, shape, bounds, world_from_object(b, object), material_index(b, material_of_object(b, object)));
 }
 
 static void open_group(void *context, const struct object_value *object) {
@@ -63,11 +74,11 @@ static void open_group(void *context, const struct object_value *object) {
 
 static void close_group(void *context) { level_close(context); }
 
-static enum lang_use open_use(void *context, const struct object_value *object, const struct hash *contents) {
+static enum lang_use open_use(void *context, const struct object_value *object, const struct hash *contents, bool exact) {
     struct builder *b = context;
     const struct object_value *bounds = object_object(object, KEY_OBJECT_BOUNDS);
     if (bounds) diag_help(b->diag, diag_error(b->diag, bounds->span, "bounds-of-no-quadric", "`bounds` cut a quadric; a template has none"), "move them to the quadric");
-    return instances_open(b, object, contents);
+    return instances_open(b, object, contents, exact);
 }
 
 static bool close_use(void *context) { return instances_close(context); }
@@ -86,6 +97,7 @@ static void take_back(void *context) {
     p->flat_count = then->flat_count;
     p->quadric_count = then->quadric_count;
     p->instance_count = then->instance_count;
+    p->use_count = then->use_count;
     instances_take_back(b, b->marked_geometries);
 }
 
@@ -96,7 +108,7 @@ struct builder *scene_begin(struct arena *arena, struct diagnostics *diag, struc
     *scene = (struct scene){0};
     *b = (struct builder){.arena = arena, .diag = diag, .scene = scene, .default_material = NO_MATERIAL};
     b->set = arena_alloc(arena, sizeof *b->set);
-    level_push(b, (struct level){.world_from_node = AFFINE_IDENTITY});
+    level_push(b, (struct level){.world_from_node = AFFINE_IDENTITY, .template = ORIGIN_NO_TEMPLATE});
     *sink = (struct lang_sink){b, add_shape, open_group, close_group, open_use, close_use, mark, take_back};
     return b;
 }
@@ -117,8 +129,10 @@ bool scene_end(struct builder *b, const struct lang_result *description) {
     settings_build(b, file);
     camera_build(b, file);
     lights_build(b, file);
-    for (uint32_t i = 0; i < description->materials.count; i++) material_index(b, description->materials.items[i]);
+    for (uint32_t i = 0; i < description->materials.count; i++) material_add_named(b, description->materials.items[i]);
     b->scene->primitives = b->set->primitives;
+    materials_check(b);
+    places_keep(b);
     if (b->diag->errors == errors && !file->failed) warn_nothing_seen(b, file);
     return b->diag->errors == errors && !file->failed;
 }

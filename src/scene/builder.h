@@ -11,13 +11,18 @@ struct level {
     const struct object_value *material;
     const struct object_value *use; /* that placed the level; NULL: a group */
     struct placed *placed;          /* of a use whose objects are gathered; else NULL */
+    const char *name;               /* the innermost around; NULL: none */
+    uint32_t template;              /* the innermost around, or ORIGIN_NO_TEMPLATE */
+    const struct object_value *own; /* material that was given here; NULL: none */
+    struct span own_span;
+    uint32_t count; /* of primitives in the set before it was opened */
     struct level *outer;
 };
 
 /* A set of primitives that is being filled: the scene's, or a geometry's. */
 struct set {
     struct primitives primitives;
-    uint32_t info_room, sphere_room, flat_room, quadric_room, instance_room; /* of the arrays */
+    uint32_t info_room, sphere_room, flat_room, quadric_room, instance_room, use_room; /* of the arrays */
     struct set *outer;
 };
 
@@ -25,11 +30,12 @@ struct builder {
     struct arena *arena; /* of the scene */
     struct diagnostics *diag;
     struct scene *scene;
-    struct set *set;
+    struct set *set, *free_sets;
     struct level *level, *free_levels;
-    struct table placed, inline_materials; /* by their contents */
+    struct table placed, geometries, inline_materials; /* by their contents */
     uint32_t *named_materials, named_room; /* index into the scene's materials by definition */
-    uint32_t material_room, geometry_room;
+    uint32_t material_room, material_info_room, geometry_room, template_room;
+    uint32_t origin; /* of what is placed now */
     uint32_t default_material; /* its index once it is needed; else NO_MATERIAL */
     uint32_t *geometry_height, *geometry_weight, height_room, weight_room; /* of each geometry, see instances.c */
     struct set marked; /* at the mark: its counts */
@@ -56,6 +62,15 @@ void lights_check(struct builder *b, const struct object_value *file);
 /* The index of the material that an object is given, or that it has by default (NULL). */
 uint32_t material_index(struct builder *b, const struct object_value *material);
 
+/* Adds a material that has a name, whether or not an object has it, so that its mistakes are reported. */
+void material_add_named(struct builder *b, const struct object_value *material);
+
+/* Remembers that a group with members has the material. */
+void material_hold(struct builder *b, const struct object_value *material, struct span span);
+
+/* Warns of materials of groups that none of the members takes; after all objects are built. */
+void materials_check(struct builder *b);
+
 /* Adds the primitive of a shape (`shape`: a mapping of kind sphere, box, ...), with
  * world_from_node the transform of the node that has it. `bounds`: the node's, or NULL. */
 void shape_build(struct builder *b, const struct object_value *shape, const struct object_value *bounds,
@@ -64,9 +79,20 @@ void shape_build(struct builder *b, const struct object_value *shape, const stru
 /* Adds an instance of a geometry of the scene. */
 void instance_add(struct builder *b, struct span span, affine world_from_object, uint32_t geometry, uint32_t material);
 
+/* ---- places.c: where things were written ---- */
+
+/* What is placed from now on comes from this object. */
+void place_origin(struct builder *b, const struct object_value *object);
+
+/* The index of the template that is used, with its name in the scene. */
+uint32_t place_template(struct builder *b, const struct object_value *use);
+
+/* Makes all places of the scene outlive the load. */
+void places_keep(struct builder *b);
+
 /* ---- instances.c: what becomes of a template in use ---- */
 
-enum lang_use instances_open(struct builder *b, const struct object_value *object, const struct hash *contents);
+enum lang_use instances_open(struct builder *b, const struct object_value *object, const struct hash *contents, bool exact);
 bool instances_close(struct builder *b);
 
 /* Forgets what was gathered since there were `geometries` of them. */

@@ -36,10 +36,9 @@ void material_hash(const struct material *m, struct hash *hash) {
     hash_double(hash, m->index);
 }
 
-static void hash_primitive(struct hash *hash, const struct primitives *p, const struct primitive_info *info) {
-    const uint32_t index = primitive_ref_index(info->ref);
-    hash_integer(hash, info->ref);
-    switch (primitive_ref_kind(info->ref)) {
+void shape_hash(const struct primitives *p, primitive_ref ref, struct hash *hash) {
+    const uint32_t index = primitive_ref_index(ref);
+    switch (primitive_ref_kind(ref)) {
     case PRIMITIVE_SPHERE:
         hash_vec3(hash, p->spheres[index].center);
         hash_double(hash, p->spheres[index].radius);
@@ -75,7 +74,17 @@ static void hash_primitives(struct hash *hash, const struct scene *scene, const 
         }
         hash_integer(hash, material.high);
         hash_integer(hash, material.low);
-        hash_primitive(hash, p, &p->info[i]);
+        hash_integer(hash, p->info[i].ref);
+        shape_hash(p, p->info[i].ref, hash);
+    }
+}
+
+void primitives_hash(const struct primitives *p, struct hash *hash) {
+    hash_integer(hash, p->count);
+    for (uint32_t i = 0; i < p->count; i++) {
+        hash_integer(hash, material_of(p, i));
+        hash_integer(hash, p->info[i].ref);
+        shape_hash(p, p->info[i].ref, hash);
     }
 }
 

@@ -78,6 +78,7 @@ struct primitive_info {
     primitive_ref ref;
     uint32_t material; /* index into the scene's materials; of a geometry's also MATERIAL_INHERITED;
                           of an instance not used: it has its own */
+    uint32_t origin;   /* index into the scene's origins: the object that it came from */
 };
 
 /* The material of the innermost instance around that has one. */
@@ -95,6 +96,7 @@ struct primitives {
     uint32_t *quadric_number, quadric_count;
     struct instance *instances;
     uint32_t *instance_number, instance_count;
+    uint32_t *uses, use_count; /* the templates that were used here, each time: indices into the scene's */
 };
 
 /* The number of the primitive that `ref` names. */

@@ -1,4 +1,6 @@
 /* Settings, camera, lights and materials of a file. */
+#include <string.h>
+
 #include "base/elementary.h"
 #include "scene/builder.h"
 
@@ -91,6 +93,7 @@ void camera_build(struct builder *b, const struct object_value *file) {
     struct camera *camera = &b->scene->camera;
     const struct object_value *object = object_object(file, KEY_FILE_CAMERA);
     *camera = (struct camera){.up = {0, 1, 0}, .fov_deg = grammar_kinds[KIND_CAMERA].keys[KEY_CAMERA_FOV].value[0]};
+    b->scene->camera_span = object_span(file, object ? KEY_FILE_CAMERA : KEY_FILE_SCENE);
     if (!object) return;
     *camera = (struct camera){
         .projection = object_choice(object, KEY_CAMERA_PROJECTION) == CHOICE_CAMERA_PROJECTION_ORTHOGRAPHIC ? CAMERA_ORTHOGRAPHIC : CAMERA_PERSPECTIVE,
@@ -107,6 +110,9 @@ void camera_build(struct builder *b, const struct object_value *file) {
         .height = object_number(object, KEY_CAMERA_HEIGHT),
     };
     if (object->failed) return;
+    const int looks = camera->has_direction ? KEY_CAMERA_DIRECTION : camera->has_look_at ? KEY_CAMERA_LOOK_AT : KEY_CAMERA_EYE;
+    if (object_has(object, looks)) b->scene->camera_span = object_span(object, looks);
+    b->scene->eye_span = object_span(object, KEY_CAMERA_EYE);
     camera_check(b, object, camera);
     projection_check(b, object, camera);
 }
@@ -120,13 +126,24 @@ static struct light light_build(const struct object_value *object) {
     return (struct light){LIGHT_AMBIENT, {0, 0, 0}, {0, 0, 0}}; /* a reported one */
 }
 
+/* Where it says where the light is, or else its colour. */
+static struct span light_span(const struct object_value *object) {
+    const struct object_value *ambient = object_object(object, KEY_LIGHT_AMBIENT), *point = object_object(object, KEY_LIGHT_POINT);
+    if (point) return object_span(point, KEY_POINT_LIGHT_AT);
+    return ambient ? object_span(ambient, KEY_AMBIENT_LIGHT_COLOR) : object->span;
+}
+
 void lights_build(struct builder *b, const struct object_value *file) {
     struct scene *scene = b->scene;
     const struct object_list list = object_list(file, KEY_FILE_LIGHTS);
     scene->default_lights = !object_has(file, KEY_FILE_LIGHTS);
     scene->lights = arena_array(b->arena, list.count ? list.count : 1, sizeof *scene->lights);
+    scene->light_spans = arena_array(b->arena, list.count ? list.count : 1, sizeof *scene->light_spans);
     scene->light_count = list.count;
-    for (uint32_t i = 0; i < list.count; i++) scene->lights[i] = light_build(list.items[i]);
+    for (uint32_t i = 0; i < list.count; i++) {
+        scene->lights[i] = light_build(list.items[i]);
+        scene->light_spans[i] = light_span(list.items[i]);
+    }
 }
 
 static bool is_black(vec3 color) { return !(vec3_max_abs(color) > 0.0); }
@@ -197,15 +214,32 @@ static struct material material_of(struct builder *b, const struct object_value 
     return m;
 }
 
-static uint32_t add_material(struct builder *b, struct material material) {
+static uint32_t add_material(struct builder *b, struct material material, struct material_info info) {
     struct scene *scene = b->scene;
     scene->materials = builder_grow(b, scene->materials, scene->material_count, &b->material_room, sizeof *scene->materials);
+    scene->material_info = builder_grow(b, scene->material_info, scene->material_count, &b->material_info_room, sizeof *scene->material_info);
     scene->materials[scene->material_count] = material;
+    scene->material_info[scene->material_count] = info;
     return scene->material_count++;
 }
 
+/* Of a material that an object has: what it takes over from another one may well be idle. */
+static void warn_idle(struct builder *b, const struct object_value *m) {
+    static const struct {
+        int key, needs;
+    } pairs[] = {{KEY_MATERIAL_SHININESS, KEY_MATERIAL_SPECULAR}, {KEY_MATERIAL_INDEX, KEY_MATERIAL_REFRACTION}};
+    if (m->failed || object_has(m, KEY_MATERIAL_EXTENDS) || object_has(m, KEY_MATERIAL_PRESET) || diag_full(b->diag)) return;
+    for (int i = 0; i < 2; i++) {
+        if (!object_has(m, pairs[i].key) || object_has(m, pairs[i].needs)) continue;
+        const char *key = m->kind->keys[pairs[i].key].name, *needs = m->kind->keys[pairs[i].needs].name;
+        struct diagnostic *d = diag_warning(b->diag, object_span(m, pairs[i].key), "no-effect", "`%s` has no effect without `%s`", key, needs);
+        diag_help(b->diag, d, "give the material a `%s`, or remove `%s`", needs, key);
+    }
+}
+
 /* Materials written in place are often the same: of those one is enough. */
-static uint32_t inline_material(struct builder *b, struct material material) {
+static uint32_t inline_material(struct builder *b, const struct object_value *object) {
+    const struct material material = material_of(b, object);
     struct hash hash;
     char name[HASH_TEXT_SIZE];
     hash_begin(&hash);
@@ -214,7 +248,8 @@ static uint32_t inline_material(struct builder *b, struct material material) {
     const uint32_t *known = table_find(&b->inline_materials, name);
     if (known) return *known;
     uint32_t *index = arena_alloc(b->arena, sizeof *index);
-    *index = add_material(b, material);
+    *index = add_material(b, material, (struct material_info){.span = object->span, .given = true});
+    warn_idle(b, object);
     table_put(b->arena, &b->inline_materials, arena_text(b->arena, name, HASH_TEXT_SIZE - 1), index);
     return *index;
 }
@@ -226,8 +261,26 @@ static uint32_t named_material(struct builder *b, const struct object_value *mat
         for (uint32_t i = before; i < b->named_room; i++) b->named_materials[i] = NO_MATERIAL;
     }
     uint32_t *index = &b->named_materials[material->definition];
-    if (*index == NO_MATERIAL) *index = add_material(b, material_of(b, material));
-    return *index;
+    if (*index != NO_MATERIAL) return *index;
+    const char *name = arena_text(b->arena, material->name, strlen(material->name));
+    return *index = add_material(b, material_of(b, material), (struct material_info){.name = name, .span = material->span});
+}
+
+void material_add_named(struct builder *b, const struct object_value *material) { named_material(b, material); }
+
+void material_hold(struct builder *b, const struct object_value *material, struct span span) {
+    if (!material->name || material->failed) return;
+    struct material_info *info = &b->scene->material_info[named_material(b, material)];
+    if (!info->held.source) info->held = span;
+}
+
+void materials_check(struct builder *b) {
+    for (uint32_t i = 0; i < b->scene->material_count; i++) {
+        const struct material_info *info = &b->scene->material_info[i];
+        if (info->given || !info->held.source) continue;
+        struct diagnostic *d = diag_warning(b->diag, info->held, "unused-material", "`%s` can be seen on nothing: all that is in here has materials of its own", info->name);
+        diag_help(b->diag, d, "remove it, or the material of a member");
+    }
 }
 
 /* A light clay, with a soft highlight. */
@@ -235,8 +288,14 @@ static const struct material default_material = {
     .ambient = {0.62, 0.36, 0.22}, .diffuse = {0.62, 0.36, 0.22}, .specular = {0.25, 0.25, 0.25}, .shininess = 40, .index = 1};
 
 uint32_t material_index(struct builder *b, const struct object_value *material) {
-    if (material) return material->name ? named_material(b, material) : inline_material(b, material_of(b, material));
+    if (material && !material->name) return inline_material(b, material);
+    if (material) {
+        const uint32_t index = named_material(b, material);
+        if (!b->scene->material_info[index].given) warn_idle(b, material);
+        b->scene->material_info[index].given = true;
+        return index;
+    }
     if (b->set->outer) return MATERIAL_INHERITED;
-    if (b->default_material == NO_MATERIAL) b->default_material = add_material(b, default_material);
+    if (b->default_material == NO_MATERIAL) b->default_material = add_material(b, default_material, (struct material_info){.given = true});
     return b->default_material;
 }

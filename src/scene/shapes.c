@@ -39,7 +39,7 @@ struct placement {
 static void add_info(struct builder *b, const struct placement *at, enum primitive_kind kind, uint32_t index) {
     struct primitives *p = &b->set->primitives;
     p->info = builder_grow(b, p->info, p->count, &b->set->info_room, sizeof *p->info);
-    p->info[p->count++] = (struct primitive_info){primitive_ref_make(kind, index), at->material};
+    p->info[p->count++] = (struct primitive_info){primitive_ref_make(kind, index), at->material, b->origin};
 }
 
 /* Room for one more primitive of a kind and its number; false when there can be no more. */
@@ -110,6 +110,16 @@ static affine along(vec3 direction, double radius, vec3 z_axis, vec3 origin) {
     return affine_columns(vec3_scale(x, radius), vec3_scale(y, radius), z_axis, origin);
 }
 
+/* One end without the other leaves the default one, where hardly anybody wants it. */
+static void warn_half_given(struct builder *b, const struct object_value *shape, int one, int other) {
+    if (object_has(shape, one) == object_has(shape, other)) return;
+    const int given = object_has(shape, one) ? one : other, missing = given == one ? other : one;
+    const vec3 v = object_vec3(shape, missing);
+    const char *name = shape->kind->keys[missing].name;
+    struct diagnostic *d = diag_warning(b->diag, object_span(shape, given), "half-given", "`%s` is given, but not `%s`", shape->kind->keys[given].name, name);
+    diag_help(b->diag, d, "`%s` is [%g, %g, %g] unless it is given", name, v.x, v.y, v.z);
+}
+
 /* A shape of revolution about the line from `from` to `to`; z_from and z_to are the heights of those
  * points in its canonical form. False when the points are one; reported. */
 static bool between(struct builder *b, const struct object_value *shape, int from_key, int to_key, int radius_key,
@@ -123,6 +133,7 @@ static bool between(struct builder *b, const struct object_value *shape, int fro
         if (!object_has(shape, from_key)) diag_help(b->diag, d, "`from` is [%g, %g, %g] unless it is given", from.x, from.y, from.z);
         return false;
     }
+    warn_half_given(b, shape, from_key, to_key);
     const vec3 origin = vec3_madd(from, -z_from, axis);
     *out = along(axis, object_number(shape, radius_key), axis, origin);
     return true;
@@ -214,6 +225,7 @@ static bool placement_of(struct builder *b, const struct object_value *shape, co
     case KIND_BOX:
         *form = &box_form;
         if (!corners(b, shape, KEY_BOX_MIN, KEY_BOX_MAX, &box)) return false;
+        warn_half_given(b, shape, KEY_BOX_MIN, KEY_BOX_MAX);
         *node_from_object = affine_compose(affine_translate(box3_center(box)), affine_scale(vec3_sub(box.max, box.min)));
         return true;
     case KIND_CYLINDER:

@@ -1,7 +1,8 @@
 #include "scene/builder.h"
 
-/* Angles that people mean when they write radians. */
+/* Angles that people mean when they write radians; what is computed may come to anything. */
 static void warn_radians(struct builder *b, const struct object_value *rotate, int key) {
+    if (!rotate->fields[key] || rotate->fields[key]->computed) return;
     static const struct {
         double radians;
         const char *name, *deg;

@@ -39,7 +39,7 @@ static void set_begin(struct arena *arena, struct primitives *p, uint32_t room) 
 
 static void add_info(struct primitives *p, enum primitive_kind kind, uint32_t index, uint32_t *numbers, uint32_t material) {
     numbers[index] = p->count;
-    p->info[p->count++] = (struct primitive_info){primitive_ref_make(kind, index), material};
+    p->info[p->count++] = (struct primitive_info){.ref = primitive_ref_make(kind, index), .material = material};
 }
 
 static void add_sphere(struct primitives *p, vec3 center, double radius, uint32_t material) {

@@ -1,0 +1,115 @@
+#include "shape/range.h"
+
+/* Relative to the largest term: far more than what rounding does to a sum of ten. */
+static const double slack = 1e-12;
+
+struct range {
+    double min, max;
+};
+
+/* The largest that a t^2 or b t becomes at a finite end, for the rounding of their sum. */
+static double axis_size(double a, double b, double min, double max) {
+    double most = 0.0;
+    if (fabs(min) < INFINITY) most = fabs(min);
+    if (fabs(max) < INFINITY) most = box3_upper(most, fabs(max));
+    return fabs(a) * most * most + fabs(b) * most;
+}
+
+static struct range range_add(struct range a, struct range b) { return (struct range){a.min + b.min, a.max + b.max}; }
+
+/* a t^2 + b t: its values at the ends, which may be infinite, and at the vertex. */
+static struct range range_axis(double a, double b, double min, double max) {
+    if (a == 0.0 && b == 0.0) return (struct range){0.0, 0.0};
+    struct range r = {INFINITY, -INFINITY};
+    const double vertex = a != 0.0 ? -0.5 * b / a : min;
+    const double ends[] = {min, max, vertex};
+    for (int i = 0; i < 3; i++) {
+        const double t = ends[i];
+        if (!(min <= t && t <= max)) continue;
+        const double lead = a != 0.0 ? a : b * t;
+        const double value = fabs(t) < INFINITY ? (a * t + b) * t : copysign(INFINITY, lead);
+        r = (struct range){box3_lower(r.min, value), box3_upper(r.max, value)};
+    }
+    return r;
+}
+
+static struct range range_product(double factor, double min_a, double max_a, double min_b, double max_b) {
+    const struct range all = {-INFINITY, INFINITY};
+    if (factor == 0.0) return (struct range){0.0, 0.0};
+    const double corners[] = {min_a * min_b, min_a * max_b, max_a * min_b, max_a * max_b};
+    struct range r = {INFINITY, -INFINITY};
+    for (int i = 0; i < 4; i++) {
+        if (!(fabs(corners[i]) < INFINITY)) return all;
+        r = (struct range){box3_lower(r.min, factor * corners[i]), box3_upper(r.max, factor * corners[i])};
+    }
+    return r;
+}
+
+/* The values of Q in the box; wider by the rounding, and where x y, y z or z x have a part in it. */
+static struct range form_range(const struct quadric_form *f, box3 box) {
+    const vec3 a = box.min, b = box.max;
+    const struct range parts[] = {
+        range_axis(f->xx, f->x, a.x, b.x),
+        range_axis(f->yy, f->y, a.y, b.y),
+        range_axis(f->zz, f->z, a.z, b.z),
+        range_product(f->xy, a.x, b.x, a.y, b.y),
+        range_product(f->yz, a.y, b.y, a.z, b.z),
+        range_product(f->zx, a.z, b.z, a.x, b.x),
+        {f->constant, f->constant},
+    };
+    struct range sum = {0.0, 0.0};
+    double most = axis_size(f->xx, f->x, a.x, b.x) + axis_size(f->yy, f->y, a.y, b.y) + axis_size(f->zz, f->z, a.z, b.z);
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
+        sum = range_add(sum, parts[i]);
+        if (fabs(parts[i].min) < INFINITY) most = box3_upper(most, fabs(parts[i].min));
+        if (fabs(parts[i].max) < INFINITY) most = box3_upper(most, fabs(parts[i].max));
+    }
+    return (struct range){sum.min - slack * most, sum.max + slack * most};
+}
+
+/* Whether sign * Q > 0 everywhere: squares are completed in one variable after the other; what is left
+ * when no variable has a square must be a positive constant. */
+static bool is_positive(const struct quadric_form *f, double sign) {
+    double m[4][4] = {{f->xx, 0.5 * f->xy, 0.5 * f->zx, 0.5 * f->x},
+                      {0.5 * f->xy, f->yy, 0.5 * f->yz, 0.5 * f->y},
+                      {0.5 * f->zx, 0.5 * f->yz, f->zz, 0.5 * f->z},
+                      {0.5 * f->x, 0.5 * f->y, 0.5 * f->z, f->constant}};
+    double most = 0.0;
+    for (int i = 0; i < 16; i++) most = box3_upper(most, fabs(m[i / 4][i % 4]));
+    const double least = slack * most;
+    bool done[4] = {false, false, false, false};
+    for (int step = 0; step < 3; step++) {
+        int best = -1;
+        for (int i = 0; i < 3; i++)
+            if (!done[i] && (best < 0 || sign * m[i][i] > sign * m[best][best])) best = i;
+        if (!(sign * m[best][best] > least)) break;
+        done[best] = true;
+        for (int i = 0; i < 4; i++)
+            for (int j = 0; j < 4; j++)
+                if (i != best && j != best && !(i < 3 && done[i]) && !(j < 3 && done[j])) m[i][j] -= m[i][best] * m[best][j] / m[best][best];
+    }
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 4; j++)
+            if (!done[i] && !(j < 3 && done[j]) && fabs(m[i][j]) > least) return false;
+    return sign * m[3][3] > least;
+}
+
+static bool is_everywhere(box3 box) {
+    return box.min.x == -INFINITY && box.min.y == -INFINITY && box.min.z == -INFINITY && box.max.x == INFINITY &&
+           box.max.y == INFINITY && box.max.z == INFINITY;
+}
+
+bool form_is_empty(const struct quadric_form *form) {
+    const struct range values = form_range(form, form->clip);
+    if (values.min > 0.0 || is_positive(form, 1.0)) return true;
+    if (!form->open && !is_everywhere(form->clip)) return false; /* all of the box */
+    return values.max < 0.0 || is_positive(form, -1.0);
+}
+
+bool form_holds_box(const struct quadric_form *form, box3 box) {
+    const vec3 min = form->clip.min, max = form->clip.max;
+    if (form->open) return false;
+    if (!(min.x < box.min.x && min.y < box.min.y && min.z < box.min.z)) return false;
+    if (!(box.max.x < max.x && box.max.y < max.y && box.max.z < max.z)) return false;
+    return form_range(form, box).max < 0.0;
+}
