@@ -1,5 +1,6 @@
 #!/bin/sh
-# Renders every scene of the manuals (```yaml blocks) and of scenes/ small: none may have an error or a warning.
+# Renders every scene of the manuals (```yaml blocks) and of scenes/ small: none may have an error or a warning. One
+# that begins with a comment `# NAME.yaml` has that name too, for those of the same manual to include.
 #   tests/examples.sh [PROGRAM]
 set -u
 cd "$(dirname "$0")/.." || exit 2
@@ -9,19 +10,23 @@ trap 'rm -rf "$work"' EXIT
 passed=0 failed=0
 
 for manual in README.md grammar/*.md; do
-    awk -v base="$work/$(basename "$manual" .md)" '
-        /^```yaml/ { file = sprintf("%s-line%d.yaml", base, NR); next }
-        /^```/ { if (file) close(file); file = "" }
-        file { print > file }' "$manual"
+    folder=$work/$(basename "$manual" .md)
+    mkdir -p "$folder"
+    awk -v folder="$folder" '
+        /^```yaml/ { file = sprintf("%s/line%d.yaml", folder, NR); first = 1; next }
+        /^```/ { if (file) close(file); if (named) close(named); file = named = "" }
+        file && first { first = 0; if (/^# [a-z]*[.]yaml$/) named = folder "/" $2 }
+        file { print > file }
+        named { print > named }' "$manual"
 done
 
-for scene in "$work"/*.yaml $(find scenes -name '*.yaml' | sort); do
+for scene in "$work"/*/*.yaml $(find scenes -name '*.yaml' | sort); do
     if "$program" render "$scene" --size 64x48 --samples 1 -o "$work/picture.png" 2>"$work/messages" &&
         ! grep -q 'warning\[\|error\[' "$work/messages"; then
         passed=$((passed + 1))
     else
         failed=$((failed + 1))
-        echo "FAILED ${scene##*/}"
+        echo "FAILED ${scene#"$work"/}"
         cat "$work/messages"
     fi
 done

@@ -51,8 +51,9 @@ for (const file of [...yamlFiles("scenes"), ...yamlFiles("tests/editor/accepted"
     const wrong = problem(fs.readFileSync(file, "utf8"));
     verdict(`${file} validates`, !wrong, wrong);
 }
-const manual = fs.readFileSync("README.md", "utf8").matchAll(/^```yaml\n(.*?)^```/gms);
-for (const [, text] of manual) verdict("an example of the manual validates", !problem(text), text);
+for (const file of ["README.md", "grammar/manual.md"])
+    for (const [, text] of fs.readFileSync(file, "utf8").matchAll(/^```yaml\n(.*?)^```/gms))
+        verdict(`an example of ${file} validates`, !problem(text), `${problem(text)}\n${text}`);
 const example = read(fs.readFileSync("grammar/language.yaml", "utf8")).kinds.file.example;
 verdict("the language's example validates", !problem(example), problem(example));
 
