@@ -42,9 +42,9 @@ words() { tr -s ' ' '\n' <<<"$1" | grep . | sort -u; }
 # The first text of a call is its code; and, but for the import, every text that looks like one: some are passed on.
 # `beyond` is what only_counted gives to a list that is full: it is never kept.
 codes_of_src() {
-    cat src/{base,lang,scene,render}/*.c src/monge.c | tr '\n' ' ' |
+    cat src/*.c src/{base,lang,scene,render}/*.c | tr '\n' ' ' |
         grep -oE 'diag_(error|warning|failure)\([^"]*"[a-z]+(-[a-z]+)*"' | grep -oE '"[a-z-]+"$' | tr -d '"'
-    find src/lang src/scene src/monge.c -name '*.c' ! -name 'import_*.c' -exec cat {} + |
+    find src/lang src/scene src/*.c -name '*.c' ! -name 'import_*.c' -exec cat {} + |
         grep -oE '"[a-z]+(-[a-z]+)+"' | tr -d '"'
 }
 codes_of_src | grep -vx beyond | sort -u >"$work/src"
