@@ -278,6 +278,8 @@ bool monge_scene_prepare(struct monge_scene *scene) {
 }
 
 void monge_scene_examine(struct monge_scene *scene, struct monge_diagnostics *diag) {
+    enum { MANY = 1 << 18 }; /* primitives: a hierarchy for the question alone would take longer than the load */
+    if (!scene->accel && scene->scene.primitives.count > MANY) return;
     jmp_buf full;
     struct arena scratch = {.on_full = &full};
     if (!monge_scene_prepare(scene)) return;
