@@ -78,11 +78,16 @@ static bool place_before(const struct place *a, const struct place *b) {
     return a->line != b->line ? a->line < b->line : a->column < b->column;
 }
 
+/* Of what a loop or a template says again with other numbers, the first time is enough. */
+static bool is_said(const struct diagnostics *diag, const struct diagnostic *before, const struct diagnostic *d) {
+    return strcmp(before->message, d->message) == 0 || (diag->frame && strcmp(before->code, d->code) == 0);
+}
+
 /* The same, told of the same scene before; NULL: none. */
 static struct diagnostic *find_same(const struct diagnostics *diag, const struct diagnostic *d) {
     for (struct diagnostic *e = diag->first; e; e = e->next)
         if (e->load >= diag->scene && e->severity == d->severity && same_file(&e->place, &d->place) && e->place.line == d->place.line &&
-            e->place.column == d->place.column && strcmp(e->message, d->message) == 0)
+            e->place.column == d->place.column && is_said(diag, e, d))
             return e;
     return NULL;
 }

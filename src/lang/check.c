@@ -96,7 +96,7 @@ static bool check_name(struct checker *ck, const struct grammar_key *key, const 
 /* A material's keys that are not given are those of the one that it extends. False: reported. */
 static bool inherit(struct checker *ck, struct object_value *object) {
     struct value *base = object->fields[KEY_MATERIAL_PRESET] ? object->fields[KEY_MATERIAL_PRESET] : object->fields[KEY_MATERIAL_EXTENDS];
-    if (!base) return true;
+    if (!base || !base->definition) return true; /* none; or in a rehearsal: a variable names it */
     const struct object_value *from = define_read(ck, base->definition);
     if (!from) return false;
     for (int i = 0; i < object->kind->key_count; i++)
@@ -159,9 +159,16 @@ static bool may_vary(const struct grammar_key *key) {
     }
 }
 
+/* The names of presets are the program's: no variable hides one. */
+static bool is_preset(struct checker *ck, const struct grammar_key *key, const struct node *node) {
+    const struct node *n = node_resolve(node);
+    if (key != &grammar_kinds[KIND_MATERIAL].keys[KEY_MATERIAL_PRESET] || n->kind != NODE_SCALAR) return false;
+    return table_find(&define_presets(ck)->names, n->text) != NULL;
+}
+
 /* One value of the key's type, or a variable that has one. False: reported, or not known yet. */
 static bool check_value(struct checker *ck, const struct grammar_key *key, const struct node *node, struct value *out) {
-    const struct binding *b = may_vary(key) ? scope_stands_for(ck, node) : NULL;
+    const struct binding *b = may_vary(key) && !is_preset(ck, key, node) ? scope_stands_for(ck, node) : NULL;
     out->span = node->span;
     if (!b) return check_written(ck, key, node, out);
     if (key->type == GRAMMAR_LIST && key->of == &grammar_kinds[KIND_OBJECT]) {

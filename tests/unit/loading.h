@@ -101,8 +101,9 @@ static inline void collect_object(void *context, const struct object_value *obje
     assert_true(c->count < COUNT(c->items));
     c->items[c->count++] = copy_object(&c->arena, object);
 }
-static inline enum lang_use collect_use(void *context, const struct object_value *object, const struct hash *contents) {
+static inline enum lang_use collect_use(void *context, const struct object_value *object, const struct hash *contents, bool exact) {
     (void)contents;
+    (void)exact;
     collect_object(context, object);
     return LANG_USE_READ;
 }

@@ -68,8 +68,9 @@ static inline void say_shape(void *context, const struct object_value *object) {
     if (shape == KEY_OBJECT_GROUP || shape == KEY_OBJECT_USE) fputc('(', r->out);
     else say_object(r->out, object_object(object, shape));
 }
-static inline enum lang_use say_use(void *context, const struct object_value *object, const struct hash *contents) {
+static inline enum lang_use say_use(void *context, const struct object_value *object, const struct hash *contents, bool exact) {
     (void)contents;
+    (void)exact;
     say_shape(context, object);
     return LANG_USE_READ;
 }

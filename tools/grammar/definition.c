@@ -199,7 +199,7 @@ const char *type_text(const struct node *key, bool links) {
     const char *of = text_of(key, "of");
     const char *link = !of ? "" : links ? format("[%s](#%s)", of, of) : of;
     if (type_is(key, "object")) return is_true(key, "named") ? format("%s, or a name", link) : link;
-    if (type_is(key, "list")) return format("list of %s", link);
+    if (type_is(key, "list")) return is_true(key, "single") ? format("%s, or list of them", link) : format("list of %s", link);
     if (type_is(key, "map")) return format("names, each with a %s", link);
     if (type_is(key, "point") || type_is(key, "direction"))
         return format("%s `[x, y, z]`", text_of(key, "type"));
