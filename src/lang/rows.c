@@ -46,6 +46,7 @@ static bool check_row(struct checker *ck, const struct grammar_key *key, const s
         if (names && !diag_full(ck->diag)) help_other_form(ck, d, n, count, names);
         return false;
     }
+    if (report_cut_in(ck, key->name, n)) return false;
     if (n->count != (uint32_t)count) {
         const bool numbers = n->count > 0 && all_scalars(n);
         struct diagnostic *d = numbers ? diag_error(ck->diag, node->span, "wrong-count", "`%s`: expected %s, found %u number%s", key->name, form,
