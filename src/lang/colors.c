@@ -67,7 +67,7 @@ static void report_no_color(struct checker *ck, const struct grammar_key *key, c
     const struct node *n = node_resolve(node);
     const char *text = n->kind == NODE_SCALAR && n->count <= 40 ? n->text : "", *hash = arena_format(ck->arena, "#%s", text);
     unsigned char rgb[3];
-    if (scalar_is_number(text)) diag_help(ck->diag, d, "for a grey write [%s, %s, %s], or %s * white", text, text, text, text);
+    if (scalar_is_number(text)) diag_help(ck->diag, d, "for a grey write [%s, %s, %s], or `%s * white`", text, text, text, text);
     else if (*text != '#' && parse_hex(hash, rgb)) diag_help(ck->diag, d, "did you mean \"%s\"?", hash);
     else if (help_rgb(ck, d, text)) return;
     else if (n->kind == NODE_MAPPING) diag_help(ck->diag, d, "a colour is [r, g, b], \"#rrggbb\" or a CSS name; textures are not there yet");
@@ -156,7 +156,9 @@ static enum quantity_result read_color(struct checker *ck, const struct grammar_
     if (result != QUANTITY_OK) return result;
     if (q.count == 1 && key->type == GRAMMAR_AMOUNT) return check_grey(ck, key, node, out) ? QUANTITY_OK : QUANTITY_WRONG;
     if (q.count != 3) {
-        diag_error(ck->diag, node->span, "not-a-color", "`%s`: expected a colour, found %s", key->name, found_quantity(ck, node, &q));
+        struct diagnostic *d = diag_error(ck->diag, node->span, "not-a-color", "`%s`: expected a colour, found %s", key->name, found_quantity(ck, node, &q));
+        const struct node *n = node_resolve(node);
+        if (q.count == 1 && n->kind == NODE_SCALAR) diag_help(ck->diag, d, scope_is_name(n->text) ? "for a grey write `%s * white`" : "for a grey write `(%s) * white`", short_text(ck, n->text));
         return QUANTITY_WRONG;
     }
     if (!check_color_range(ck, key, node, q.v)) return QUANTITY_WRONG;

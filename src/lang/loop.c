@@ -77,7 +77,7 @@ static bool run_numbers(struct loop *loop, const struct node *name, double from,
 static bool report_range_text(struct checker *ck, const char *name, const struct node *node) {
     static const char *const between[] = {"...", "..", " to ", ":", "-"};
     const struct node *n = node_resolve(node);
-    if (n->kind != NODE_SCALAR || n->count > 40) return false;
+    if (n->kind != NODE_SCALAR || n->count > 40 || n->text[strspn(n->text, "0123456789.-: to")]) return false;
     for (size_t i = 0; i < sizeof between / sizeof *between; i++) {
         const char *at = n->count > 0 ? strstr(n->text + 1, between[i]) : NULL;
         double from, to;

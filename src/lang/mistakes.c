@@ -121,6 +121,7 @@ static bool help_invisible(struct checker *ck, struct diagnostic *d, const char 
 /* In `{radius: 1,5}` the 5 is a key without a value. */
 bool report_help_comma(struct checker *ck, struct diagnostic *d, const struct node *mapping, const struct node *key) {
     const struct node *before = NULL;
+    if (diag_full(ck->diag)) return false;
     for (const struct node *k = mapping->first; k && k != key; k = k->next->next) before = k->next;
     if (!before || !node_is_null(key->next) || before->kind != NODE_SCALAR || before->span.line != key->span.line) return false;
     const char *word = node_resolve(key)->text;
@@ -170,7 +171,7 @@ bool report_cut_in(struct checker *ck, const char *what, const struct node *list
 
 bool report_cut_before(struct checker *ck, const struct node *mapping, const struct node *key) {
     const struct node *name = NULL; /* of the last value that is there */
-    if (!node_is_null(key->next)) return false;
+    if (!node_is_null(key->next) || diag_full(ck->diag)) return false;
     for (const struct node *k = mapping->first; k && k != key; k = k->next->next)
         if (!node_is_null(k->next)) name = k;
     return name && node_resolve(name)->kind == NODE_SCALAR && report_cut(ck, node_resolve(name)->text, name->next);

@@ -128,7 +128,10 @@ static bool help_dash(const struct report *r, struct diagnostic *d, struct sourc
     size_t end;
     const size_t i = source_line(r->source, level.line, &end) + level.column;
     if (level.dash || i + 1 >= end || r->source->text[i] != '-' || !isalpha((unsigned char)r->source->text[i + 1])) return false;
-    diag_help(r->diag, d, "a space after the dash%s: write `- %.*s`", level.line == d->place.line - 1 ? "" : " of the item above", (int)strcspn(r->source->text + i + 1, " :\r\n"), r->source->text + i + 1);
+    size_t stop = i + 1;
+    while (stop < end && !strchr(" :", r->source->text[stop])) stop++;
+    const char *which = level.line == d->place.line - 1 ? "" : " of the item above";
+    diag_help(r->diag, d, "a space after the dash%s: write `- %.*s`", which, (int)(stop - i - 1), r->source->text + i + 1);
     return true;
 }
 
