@@ -129,10 +129,13 @@ static bool check_values(struct checker *ck, const struct grammar_key *key, cons
     bool good = true;
     for (const struct node *name = n->first; name; name = name->next->next) {
         if (!node_is_null(name->next) || key->type == GRAMMAR_MAP) continue; /* define.c reads a map's */
-        diag_help(ck->diag, diag_error(ck->diag, name->span, "no-value", "`%s` has no value", node_resolve(name)->kind == NODE_SCALAR ? short_text(ck, node_resolve(name)->text) : "it"), "give it one, or remove the key");
         good = false;
+        if (report_cut_before(ck, n, name)) continue;
+        const char *word = node_resolve(name)->kind == NODE_SCALAR ? node_resolve(name)->text : "";
+        struct diagnostic *d = diag_error(ck->diag, name->span, "no-value", "`%s` has no value", *word ? short_text(ck, word) : "it");
+        if (!report_help_comma(ck, d, n, name) && !report_help_glued(ck, d, word) && !report_help_hash(ck, d, name)) diag_help(ck->diag, d, "give it one, or remove the key");
     }
-    return good;
+    return good || key == &grammar_kinds[KIND_TEMPLATE].keys[KEY_TEMPLATE_PARAMS]; /* the others are known all the same */
 }
 
 static bool check_written(struct checker *ck, const struct grammar_key *key, const struct node *node, struct value *out);

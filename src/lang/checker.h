@@ -38,6 +38,7 @@ struct parameter {
     enum reading_state state;
     struct binding binding; /* DONE */
     bool used;
+    const struct parameter *needed_by; /* UNDER_WAY: whose value it is read for; NULL: none */
     struct parameter *next;
 };
 
@@ -69,6 +70,7 @@ struct checker {
     struct definitions materials, templates, presets;
     struct table parameters;
     struct parameter *first_parameter, **parameters_end;
+    const struct parameter *parameter; /* that is read now; NULL: none */
     struct unit *units;
     const struct object_value *animation; /* NULL: none, or not read yet */
     bool names_lost;           /* definitions could not be read: nothing can be said of names */
@@ -228,6 +230,21 @@ int meant_key(const struct grammar_kind *kind, const char *word);
 
 /* The index of the key that was probably meant, or -1. Marks a key under which it belongs as meant. */
 int report_unknown_key(struct checker *ck, const struct grammar_kind *kind, struct mapping *mapping, const struct node *key);
+/* `max(1, 2)` within { } or [ ], where YAML ends the value at the comma. Whether it is so, and reported: once,
+ * however often it is asked. `what` the value is of; in a list; in the value of a mapping before a key without one. */
+bool report_cut(struct checker *ck, const char *what, const struct node *value);
+bool report_cut_in(struct checker *ck, const char *what, const struct node *list);
+bool report_cut_before(struct checker *ck, const struct node *mapping, const struct node *key);
+
+/* Adds what a decimal comma in a mapping was meant to be: in `{radius: 1,5}` the 5 is a key without a value. */
+bool report_help_comma(struct checker *ck, struct diagnostic *d, const struct node *mapping, const struct node *key);
+
+/* Adds that in `diffuse: #ff0000` the colour is a comment. */
+bool report_help_hash(struct checker *ck, struct diagnostic *d, const struct node *name);
+
+/* Adds that `h:1` lacks a space, where any name may stand. */
+bool report_help_glued(struct checker *ck, struct diagnostic *d, const char *word);
+
 void report_no_value(struct checker *ck, const struct grammar_key *key, const struct node *name);
 void report_no_mapping(struct checker *ck, const struct grammar_kind *kind, const struct node *node);
 void report_no_list(struct checker *ck, const struct grammar_key *key, const struct node *node);

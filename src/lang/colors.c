@@ -67,7 +67,7 @@ static void report_no_color(struct checker *ck, const struct grammar_key *key, c
     const struct node *n = node_resolve(node);
     const char *text = n->kind == NODE_SCALAR && n->count <= 40 ? n->text : "", *hash = arena_format(ck->arena, "#%s", text);
     unsigned char rgb[3];
-    if (scalar_is_number(text)) diag_help(ck->diag, d, "for a grey write [%s, %s, %s]", text, text, text);
+    if (scalar_is_number(text)) diag_help(ck->diag, d, "for a grey write [%s, %s, %s], or `%s * white`", text, text, text, text);
     else if (*text != '#' && parse_hex(hash, rgb)) diag_help(ck->diag, d, "did you mean \"%s\"?", hash);
     else if (help_rgb(ck, d, text)) return;
     else if (n->kind == NODE_MAPPING) diag_help(ck->diag, d, "a colour is [r, g, b], \"#rrggbb\" or a CSS name; textures are not there yet");
@@ -116,7 +116,8 @@ static bool check_color_range(struct checker *ck, const struct grammar_key *key,
         diag_error(ck->diag, node->span, "out-of-range", "`%s`: each part must be 0 to 1", key->name);
         return false;
     }
-    if (over) diag_warning(ck->diag, node->span, "too-much-light", "`%s`: gives back more light than it gets: a part is over 1", key->name);
+    const bool surface = ck->around.kind == &grammar_kinds[KIND_MATERIAL];
+    if (over) diag_warning(ck->diag, node->span, "too-much-light", surface ? "`%s`: gives back more light than it gets: a part is over 1" : "`%s`: a part is over 1, where the picture ends", key->name);
     return true;
 }
 
@@ -126,6 +127,7 @@ static bool check_color_list(struct checker *ck, const struct grammar_key *key, 
     component.type = GRAMMAR_NUMBER;
     component.has_min = component.has_max = false;
     double v[3];
+    if (report_cut_in(ck, key->name, n)) return false;
     if (n->count != 3) {
         diag_error(ck->diag, node->span, "not-a-color", "`%s`: expected [r, g, b], found %s", key->name, found_text(ck, node));
         return false;
@@ -154,7 +156,9 @@ static enum quantity_result read_color(struct checker *ck, const struct grammar_
     if (result != QUANTITY_OK) return result;
     if (q.count == 1 && key->type == GRAMMAR_AMOUNT) return check_grey(ck, key, node, out) ? QUANTITY_OK : QUANTITY_WRONG;
     if (q.count != 3) {
-        diag_error(ck->diag, node->span, "not-a-color", "`%s`: expected a colour, found %s", key->name, found_quantity(ck, node, &q));
+        struct diagnostic *d = diag_error(ck->diag, node->span, "not-a-color", "`%s`: expected a colour, found %s", key->name, found_quantity(ck, node, &q));
+        const struct node *n = node_resolve(node);
+        if (q.count == 1 && n->kind == NODE_SCALAR) diag_help(ck->diag, d, scope_is_name(n->text) ? "for a grey write `%s * white`" : "for a grey write `(%s) * white`", short_text(ck, n->text));
         return QUANTITY_WRONG;
     }
     if (!check_color_range(ck, key, node, q.v)) return QUANTITY_WRONG;

@@ -26,8 +26,10 @@ bool define_name_allowed(struct checker *ck, const char *what, const struct node
         return false;
     }
     const char *taken = scope_is_name(n->text) ? define_name_taken(n->text) : "letters, digits and _ make a name, the first no digit";
-    if (taken) diag_help(ck->diag, diag_error(ck->diag, name->span, "bad-name", "%s cannot be named `%s`", what, short_text(ck, n->text)), "%s", taken);
-    return !taken;
+    if (!taken) return true;
+    struct diagnostic *d = diag_error(ck->diag, name->span, "bad-name", "%s cannot be named `%s`", what, short_text(ck, n->text));
+    if (!report_help_glued(ck, d, n->text)) diag_help(ck->diag, d, "%s", taken);
+    return false;
 }
 
 static void report_twice(struct checker *ck, const struct node *name, struct span before) {
@@ -56,6 +58,12 @@ static struct node *given_from_outside(struct checker *ck, const char *name) {
     return NULL;
 }
 
+/* Neither a name nor a value: `h:1`, or what a comma cut off. check.c reports it. */
+static bool is_no_pair(const struct node *name) {
+    const struct node *n = node_resolve(name);
+    return node_is_null(name->next) && n->kind == NODE_SCALAR && !scope_is_name(n->text);
+}
+
 static void declare_parameters(struct checker *ck, const struct node *value) {
     const struct node *n = node_resolve(value);
     if (n->kind != NODE_MAPPING) {
@@ -63,6 +71,10 @@ static void declare_parameters(struct checker *ck, const struct node *value) {
         return;
     }
     for (const struct node *name = n->first; name; name = name->next->next) {
+        if (is_no_pair(name)) { /* its name is not known */
+            ck->variables_lost = true;
+            continue;
+        }
         if (!define_name_allowed(ck, "a parameter", name)) continue;
         const struct parameter *before = table_find(&ck->parameters, node_resolve(name)->text);
         if (before) {
@@ -132,11 +144,24 @@ bool define_in_range(struct checker *ck, const char *name, const struct node *de
     return !(key.has_min || key.has_max) || check_number(ck, &key, value, &ignored);
 }
 
+static void report_parameter_cycle(struct checker *ck, const struct parameter *p) {
+    enum { MOST = 6 };
+    const struct parameter *chain[MOST] = {NULL}; /* from the one that needs p back to p */
+    int count = 0;
+    struct diagnostic *d = diag_error(ck->diag, p->span, "definition-cycle", "the parameter `%s` is defined by itself", p->name);
+    for (const struct parameter *at = ck->parameter; at; at = at == p ? NULL : at->needed_by)
+        chain[count++ % MOST] = at;
+    for (int i = count; i-- > (count > MOST ? count - MOST : 0);) {
+        const struct parameter *at = chain[i % MOST], *next = i > 0 ? chain[(i - 1) % MOST] : p;
+        diag_related(ck->diag, d, at->node->span, "`%s` needs `%s`", at->name, next->name);
+    }
+}
+
 const struct binding *define_parameter(struct checker *ck, struct parameter *p) {
     p->used = true;
     if (p->state == READING_DONE) return p->binding.name ? &p->binding : NULL;
     if (p->state == READING_UNDER_WAY) {
-        diag_error(ck->diag, p->span, "definition-cycle", "the parameter `%s` is defined by itself", p->name);
+        report_parameter_cycle(ck, p);
         p->binding = (struct binding){.name = p->name, .kind = BINDING_UNKNOWN};
         return &p->binding;
     }
@@ -144,9 +169,12 @@ const struct binding *define_parameter(struct checker *ck, struct parameter *p) 
     const struct elsewhere here = leave(ck);
     const struct node *value = p->given ? p->given : place_default(p->node);
     p->state = READING_UNDER_WAY;
+    p->needed_by = ck->parameter;
+    ck->parameter = p;
     const bool waited = ck->waiting;
     ck->waiting = false;
     const bool good = scope_bind(ck, p->name, value, &p->binding) && define_in_range(ck, p->name, p->node, value);
+    ck->parameter = p->needed_by;
     p->state = ck->waiting ? READING_UNREAD : READING_DONE;
     const bool later = ck->waiting;
     ck->waiting |= waited;
@@ -185,9 +213,11 @@ static void declare(struct checker *ck, struct definitions *all, const struct gr
 
 /* The template as its author wrote it, with any values of its parameters: so that no slip in it waits
  * for somebody to use it. */
-static void rehearse_template(struct checker *ck, const struct object_value *template) {
+static void rehearse_template(struct checker *ck, const struct node *node, const struct object_value *template) {
     const struct value *parameters = template->fields[KEY_TEMPLATE_PARAMS], *objects = template->fields[KEY_TEMPLATE_OBJECTS];
     const struct node *declared = parameters ? node_resolve(parameters->node) : NULL;
+    if (!parameters && node_resolve(node)->kind == NODE_MAPPING && node_get(node_resolve(node), "params")) return; /* reported: its names are not known */
+    const bool lost = ck->variables_lost;
     struct arena *kept = ck->arena;
     ck->arena = &ck->memory->scratch;
     const struct arena_mark before = arena_mark(ck->arena);
@@ -196,7 +226,10 @@ static void rehearse_template(struct checker *ck, const struct object_value *tem
     ck->rehearsing = true;
     for (const struct node *name = declared ? declared->first : NULL; name; name = name->next->next) {
         struct binding ignored;
-        if (!define_name_allowed(ck, "a parameter", name)) continue;
+        if (is_no_pair(name) || !define_name_allowed(ck, "a parameter", name)) {
+            ck->variables_lost = true; /* its uses are not to blame */
+            continue;
+        }
         ck->scope = &scope;
         const struct node *value = place_default(name->next);
         if (!node_is_null(name->next) && scope_bind(ck, node_resolve(name)->text, value, &ignored))
@@ -206,8 +239,19 @@ static void rehearse_template(struct checker *ck, const struct object_value *tem
     ck->scope = &scope;
     if (objects) place_members(ck, KIND_TEMPLATE, KEY_TEMPLATE_OBJECTS, objects->node);
     ck->rehearsing = false;
+    ck->variables_lost = lost;
     arena_release(ck->arena, before);
     ck->arena = kept;
+}
+
+/* Whether each parameter of the template has a name and a value; where not, it is reported elsewhere. */
+static bool parameters_good(const struct object_value *template) {
+    const struct value *parameters = template->fields[KEY_TEMPLATE_PARAMS];
+    for (const struct node *name = parameters ? node_resolve(parameters->node)->first : NULL; name; name = name->next->next) {
+        const struct node *n = node_resolve(name);
+        if (node_is_null(name->next) || n->kind != NODE_SCALAR || !scope_is_name(n->text)) return false;
+    }
+    return true;
 }
 
 static struct object_value *failed_object(struct checker *ck, const struct definition *def) {
@@ -242,8 +286,9 @@ struct object_value *define_read(struct checker *ck, struct definition *def) {
     def->state = READING_UNDER_WAY;
     def->object = check_object(ck, def->kind, def->node);
     if (!def->object) def->object = failed_object(ck, def);
-    if (def->kind == &grammar_kinds[KIND_TEMPLATE] && !ck->waiting) rehearse_template(ck, def->object);
-    def->object->failed |= ck->diag->errors != errors;
+    if (def->kind == &grammar_kinds[KIND_TEMPLATE] && !ck->waiting) rehearse_template(ck, def->node, def->object);
+    def->object->failed |= ck->diag->errors != errors; /* what was told before is not counted again */
+    if (def->kind == &grammar_kinds[KIND_TEMPLATE]) def->object->failed |= !parameters_good(def->object);
     def->object->name = def->name;
     def->object->definition = def->number;
     def->state = ck->waiting ? READING_UNREAD : READING_DONE;

@@ -50,7 +50,7 @@ static const struct {
 } words[] = {
     {"and", "write `&&`"},  {"or", "write `||`"}, {"not", "write `!`"},  {"xor", "write `!=`"},
     {"is", "write `==`"},   {"mod", "write `%`"}, {"div", "write `/`"},  {"if", "write `condition ? this : that`"},
-    {"then", "write `condition ? this : that`"},  {"else", "write `condition ? this : that`"},
+    {"range", "a range is written {from: 0, to: 3}"}, {"then", "write `condition ? this : that`"},  {"else", "write `condition ? this : that`"},
     {"fract", "write `x % 1`"}, {"frac", "write `x % 1`"}, {"saturate", "write `clamp(x, 0, 1)`"},
     {"square", "write `x ^ 2`"}, {"sqr", "write `x ^ 2`"}, {"cbrt", "write `x ^ (1/3)`"},
     {"radians", "angles are in degrees: leave it out"}, {"degrees", "angles are in degrees: leave it out"},

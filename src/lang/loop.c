@@ -73,6 +73,26 @@ static bool run_numbers(struct loop *loop, const struct node *name, double from,
     return true;
 }
 
+/* `0..3`, `0 to 3`, `0:3`; of `0-3` the value is negative. Other numbers of that form are counts. */
+static bool report_range_text(struct checker *ck, const char *name, const struct node *node) {
+    static const char *const between[] = {"...", "..", " to ", ":", "-"};
+    const struct node *n = node_resolve(node);
+    if (n->kind != NODE_SCALAR || n->count > 40 || n->text[strspn(n->text, "0123456789.-: to")]) return false;
+    for (size_t i = 0; i < sizeof between / sizeof *between; i++) {
+        const char *at = n->count > 0 ? strstr(n->text + 1, between[i]) : NULL;
+        double from, to;
+        if (!at) continue;
+        const char *first = arena_text(ck->arena, n->text, (size_t)(at - n->text)), *second = at + strlen(between[i]);
+        first = arena_text(ck->arena, first, strcspn(first, " "));
+        second += strspn(second, " ");
+        if (!scalar_number(ck, first, &from) || !scalar_number(ck, second, &to) || (*at == '-' && from >= to)) continue;
+        struct diagnostic *d = diag_error(ck->diag, node->span, "not-a-number", "`%s`: expected a whole number, a list or a range, found %s", name, found_text(ck, node));
+        diag_help(ck->diag, d, "a range is written {from: %.15g, to: %.15g}, and has both ends", from, to);
+        return true;
+    }
+    return false;
+}
+
 static bool run_count(struct loop *loop, const struct node *name) {
     const struct grammar_key key = {.name = node_resolve(name)->text, .type = GRAMMAR_INTEGER, .has_min = true};
     const struct node *n = node_resolve(name->next);
@@ -82,6 +102,7 @@ static bool run_count(struct loop *loop, const struct node *name) {
         diag_help(loop->ck->diag, d, "how often, as in `for: {%s: 9}`", key.name);
         return false;
     }
+    if (report_range_text(loop->ck, key.name, name->next)) return false;
     if (!check_integer(loop->ck, &key, name->next, &count)) return false;
     return run_numbers(loop, name, 0, 1, count);
 }
@@ -155,7 +176,7 @@ static bool names_allowed(struct checker *ck, const struct node *n) {
     if (n->rehearsed) return true;
     bool good = true;
     for (const struct node *name = n->first; name; name = name->next->next) {
-        good &= define_name_allowed(ck, "a loop variable", name);
+        good &= !report_cut_before(ck, n, name) && define_name_allowed(ck, "a loop variable", name);
         for (const struct node *before = n->first; good && before != name; before = before->next->next)
             if (strcmp(node_resolve(before)->text, node_resolve(name)->text) == 0) {
                 struct diagnostic *d = diag_error(ck->diag, name->span, "key-twice", "`%s` is given twice", node_resolve(name)->text);

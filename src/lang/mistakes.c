@@ -65,6 +65,14 @@ static const char *key_names(struct checker *ck, const struct grammar_kind *kind
     return all;
 }
 
+static const char *shape_names(struct checker *ck) {
+    const struct grammar_kind *kind = &grammar_kinds[KIND_OBJECT];
+    const char *all = "";
+    for (int i = 0; i < kind->key_count; i++)
+        if (kind->keys[i].alternative && kind->keys[i].type == GRAMMAR_OBJECT) all = arena_format(ck->arena, "%s%s%s", all, *all ? ", " : "", kind->keys[i].name);
+    return all;
+}
+
 static bool has_word(const char *const *words, const char *word) {
     for (; words && *words; words++)
         if (strcmp(*words, word) == 0) return true;
@@ -111,16 +119,62 @@ static bool help_invisible(struct checker *ck, struct diagnostic *d, const char 
 }
 
 /* In `{radius: 1,5}` the 5 is a key without a value. */
-static bool help_comma(struct checker *ck, struct diagnostic *d, const struct mapping *mapping, const struct node *key) {
+bool report_help_comma(struct checker *ck, struct diagnostic *d, const struct node *mapping, const struct node *key) {
     const struct node *before = NULL;
-    for (const struct node *k = mapping->node->first; k && k != key; k = k->next->next) before = k->next;
+    if (diag_full(ck->diag)) return false;
+    for (const struct node *k = mapping->first; k && k != key; k = k->next->next) before = k->next;
     if (!before || !node_is_null(key->next) || before->kind != NODE_SCALAR || before->span.line != key->span.line) return false;
     const char *word = node_resolve(key)->text;
-    if (scalar_is_number(before->text) && strspn(word, "0123456789") == strlen(word))
-        diag_help(ck->diag, d, "a decimal point is a point: did you mean %s.%s?", short_text(ck, before->text), short_text(ck, word));
-    else if (strchr(before->text, '(')) diag_help(ck->diag, d, "a comma ends a value here: a list stands in [ ], a text with commas in quotes");
-    else return false;
+    const size_t at = key->span.source ? source_offset(key->span) : 0;
+    if (at == 0 || key->span.source->text[at - 1] != ',' || !scalar_is_number(before->text) || strspn(word, "0123456789") != strlen(word)) return false;
+    diag_help(ck->diag, d, "a decimal point is a point: did you mean %s.%s?", short_text(ck, before->text), short_text(ck, word));
     return true;
+}
+
+bool report_help_glued(struct checker *ck, struct diagnostic *d, const char *word) {
+    const char *colon = strchr(word, ':');
+    if (!colon || !scope_is_name(arena_text(ck->arena, word, (size_t)(colon - word)))) return false;
+    diag_help(ck->diag, d, "a space after the colon: `%.*s: %s`", (int)(colon - word), word, short_text(ck, colon + 1));
+    return true;
+}
+
+/* How many `(` of the text are not closed in it. */
+static int open_brackets(const char *text) {
+    int open = 0;
+    for (; *text; text++) open += *text == '(' || *text == '[' ? 1 : *text == ')' || *text == ']' ? -1 : 0;
+    return open;
+}
+
+bool report_cut(struct checker *ck, const char *what, const struct node *value) {
+    const struct node *n = node_resolve(value);
+    if (n->kind != NODE_SCALAR || n->quoted || !n->span.source || !strchr(n->text, '(') || open_brackets(n->text) <= 0) return false;
+    size_t stop, i = source_offset(n->span);
+    const char *text = n->span.source->text, *begin = text + i;
+    source_line(n->span.source, n->span.line, &stop);
+    if (i + n->count >= stop || text[i + n->count] != ',') return false;
+    for (int open = 0; i < stop; i++) { /* to where the value was meant to end */
+        if (open == 0 && strchr(",]}", text[i])) break;
+        open += strchr("([{", text[i]) ? 1 : strchr(")]}", text[i]) ? -1 : 0;
+    }
+    struct diagnostic *d = diag_error(ck->diag, n->span, "bad-expression", "`%s`: a comma ends the value here, within its ( )", what);
+    const int length = (int)(text + i - begin);
+    if (*begin == '(' && begin[length - 1] == ')') diag_help(ck->diag, d, "a list stands in [ ]: write [%.*s]", length - 2, begin + 1);
+    else diag_help(ck->diag, d, "put it into quotes: \"%.*s\"", length, begin);
+    return true;
+}
+
+bool report_cut_in(struct checker *ck, const char *what, const struct node *list) {
+    for (const struct node *item = list->first; item; item = item->next)
+        if (report_cut(ck, what, item)) return true;
+    return false;
+}
+
+bool report_cut_before(struct checker *ck, const struct node *mapping, const struct node *key) {
+    const struct node *name = NULL; /* of the last value that is there */
+    if (!node_is_null(key->next) || diag_full(ck->diag)) return false;
+    for (const struct node *k = mapping->first; k && k != key; k = k->next->next)
+        if (!node_is_null(k->next)) name = k;
+    return name && node_resolve(name)->kind == NODE_SCALAR && report_cut(ck, node_resolve(name)->text, name->next);
 }
 
 /* The key of the kind under which `word` belongs, because its mappings have it: one that is given, or
@@ -178,12 +232,69 @@ int meant_key(const struct grammar_kind *kind, const char *word) {
     return instead >= 0 || !s.best || s.distance == 0 ? instead : grammar_find_key(kind, s.best);
 }
 
+/* Shapes that other renderers have. */
+static bool is_foreign_shape(const char *word) {
+    static const char *const shapes[] = {"triangle", "triangles", "polygon", "mesh", "mesh2", "trimesh", "obj", "model", "torus", "blob", "text", "heightfield", "height_field",
+                                         "prism", "pyramid", "tetrahedron", "capsule", "superellipsoid", "lathe", "sor", "bezier", "curve", "isosurface", "metaball",
+                                         "rounded_box", "round_box", "ring", "annulus", "tube", NULL};
+    return has_word(shapes, word);
+}
+
+/* A number, or a row of three, without expressions. */
+static bool written_numbers(struct checker *ck, const struct node *node, double out[3]) {
+    const struct node *n = node_resolve(node), *item = n->first;
+    if (n->kind == NODE_SCALAR && scalar_number(ck, n->text, &out[0])) {
+        out[1] = out[2] = out[0];
+        return true;
+    }
+    if (n->kind != NODE_SEQUENCE || n->count != 3) return false;
+    for (int i = 0; i < 3; i++, item = item->next) {
+        const struct node *part = node_resolve(item);
+        if (part->kind != NODE_SCALAR || !scalar_number(ck, part->text, &out[i])) return false;
+    }
+    return true;
+}
+
+static bool is_box_word(const char *word) {
+    static const char *const words[] = {"size", "center", "centre", "position", "at", "width", "height", "depth", "side", NULL};
+    return has_word(words, word);
+}
+
+/* Whether the box's size or middle has been answered, at a key before this one. */
+static bool is_box_told(const struct node *box, const struct node *key) {
+    bool told = false;
+    for (const struct node *k = box->first; k != key; k = k->next->next)
+        told |= node_resolve(k)->kind == NODE_SCALAR && is_box_word(node_resolve(k)->text);
+    return told && is_box_word(node_resolve(key)->text);
+}
+
+/* `box: {size: 2, center: [1, 0, 0]}`: its corners, where both are numbers that are written there. */
+static bool help_box(struct checker *ck, struct diagnostic *d, const struct node *box, const char *word) {
+    if (!is_box_word(word)) return false;
+    const struct node *center = node_get(box, "center"), *size = node_get(box, "size");
+    double middle[3] = {0, 0, 0}, sides[3] = {1, 1, 1};
+    if (size && written_numbers(ck, size, sides) && (!center || written_numbers(ck, center, middle)))
+        diag_help(ck->diag, d, "write {min: [%g, %g, %g], max: [%g, %g, %g]}", middle[0] - sides[0] / 2, middle[1] - sides[1] / 2, middle[2] - sides[2] / 2,
+                  middle[0] + sides[0] / 2, middle[1] + sides[1] / 2, middle[2] + sides[2] / 2);
+    else diag_help(ck->diag, d, "give its corners `min` and `max`, or scale and move `box: {}` by a `transform`");
+    return true;
+}
+
 /* The help for an unknown key, the surest first; returns the key that was meant, or -1. */
 static int help_unknown(struct checker *ck, struct diagnostic *d, const struct grammar_kind *kind, struct mapping *mapping, const struct node *key) {
     const char *word = node_resolve(key)->text;
-    if (help_glued(ck, d, kind, word) || help_invisible(ck, d, word) || help_comma(ck, d, mapping, key)) return -1;
+    if (help_glued(ck, d, kind, word) || help_invisible(ck, d, word) || report_help_comma(ck, d, mapping->node, key)) return -1;
+    if (kind == &grammar_kinds[KIND_BOX] && help_box(ck, d, mapping->node, word)) return -1;
+    if (kind == &grammar_kinds[KIND_SPHERE] && strcmp(word, "radii") == 0) {
+        diag_help(ck->diag, d, "an ellipsoid is a sphere under `transform: {scale: [1, 2, 3]}`");
+        return -1;
+    }
     const struct spelling s = nearest_key(kind, word);
     const int instead = key_instead(kind, word, false), near = key_instead(kind, word, true);
+    if (kind == &grammar_kinds[KIND_OBJECT] && is_foreign_shape(word)) {
+        diag_help(ck->diag, d, "this shape is not there");
+        return -1;
+    }
     if (instead >= 0) {
         diag_help(ck->diag, d, "it is called `%s` here", kind->keys[instead].name);
         return instead;
@@ -200,13 +311,32 @@ static int help_unknown(struct checker *ck, struct diagnostic *d, const struct g
 }
 
 int report_unknown_key(struct checker *ck, const struct grammar_kind *kind, struct mapping *mapping, const struct node *key) {
-    if (only_counted(ck, key->span)) return -1;
-    struct diagnostic *d = diag_error(ck->diag, key->span, "unknown-key", "%s has no key `%s`", kind->title, short_text(ck, node_resolve(key)->text));
+    if (only_counted(ck, key->span) || report_cut_before(ck, mapping->node, key)) return -1;
+    if (kind == &grammar_kinds[KIND_BOX] && is_box_told(mapping->node, key)) return -1;
+    const char *word = node_resolve(key)->text;
+    const bool shape = kind == &grammar_kinds[KIND_OBJECT] && is_foreign_shape(word);
+    struct diagnostic *d = diag_error(ck->diag, key->span, "unknown-key", "%s has no key `%s`", kind->title, short_text(ck, word));
     const int meant = help_unknown(ck, d, kind, mapping, key);
-    diag_note(ck->diag, d, "%s takes %s", kind->title, key_names(ck, kind, false));
+    if (shape) diag_note(ck->diag, d, "the shapes are %s", shape_names(ck));
+    else diag_note(ck->diag, d, "%s takes %s", kind->title, key_names(ck, kind, false));
     if (key->merged || mapping->object->span.line != mapping->node->span.line || mapping->object->span.column != mapping->node->span.column)
         diag_related(ck->diag, d, mapping->object->span, "%s is read here", kind->title);
     return meant;
+}
+
+/* `diffuse: #ff0000`: a comment to YAML. */
+bool report_help_hash(struct checker *ck, struct diagnostic *d, const struct node *name) {
+    const struct source *source = name->span.source;
+    size_t end;
+    source_line(source, name->span.line, &end);
+    const char *c = source->text + source_offset(name->span), *stop = source->text + end;
+    while (c < stop && *c != '#') c++;
+    vec3 ignored;
+    const char *word = arena_text(ck->arena, c, (size_t)(stop - c));
+    word = arena_text(ck->arena, word, strcspn(word, " \r"));
+    if (*word != '#' || !color_parse(word, &ignored)) return false;
+    diag_help(ck->diag, d, "`#` starts a comment: write \"%s\", in quotes", word);
+    return true;
 }
 
 void report_no_value(struct checker *ck, const struct grammar_key *key, const struct node *name) {
@@ -216,6 +346,7 @@ void report_no_value(struct checker *ck, const struct grammar_key *key, const st
     if (takes_mapping(key) && next && next->kind == NODE_SCALAR && has_key(key->of, next->text))
         diag_help(ck->diag, d, "indent `%s` further, so that it belongs to `%s`", next->text, key->name);
     else if (key->type == GRAMMAR_OBJECT && !key->named) diag_help(ck->diag, d, "for all its defaults write `%s: {}`", key->name);
+    else if (report_help_hash(ck, d, name)) return;
     else if (key->type == GRAMMAR_COLOR || key->type == GRAMMAR_AMOUNT)
         diag_help(ck->diag, d, "give it one or remove it; a colour like \"#ffd700\" needs its quotes");
     else if (key->required && key->example) diag_help(ck->diag, d, "give it one, as in `%s`", key->example);
@@ -266,6 +397,9 @@ static const char *written(struct checker *ck, const struct node *n) {
 }
 
 static bool help_fitting(struct checker *ck, struct diagnostic *d, const struct grammar_kind *kind, const struct node *n) {
+    const bool grey = kind == &grammar_kinds[KIND_AMBIENT_LIGHT] && n->kind == NODE_SCALAR && scalar_is_number(n->text);
+    if (grey) diag_help(ck->diag, d, "write {color: [%s, %s, %s]}", n->text, n->text, n->text);
+    if (grey) return true;
     const struct grammar_key *key = fitting_key(kind, n);
     if (key) diag_help(ck->diag, d, "write {%s: %s}", key->name, written(ck, n));
     return key != NULL;
@@ -303,7 +437,10 @@ void report_no_list(struct checker *ck, const struct grammar_key *key, const str
     const struct node *n = node_resolve(node);
     struct diagnostic *d = diag_error(ck->diag, node->span, "not-a-list", "`%s`: expected a list of %ss, found %s", key->name,
                                       strchr(key->of->title, ' ') + 1, found_text(ck, node));
-    if (n->kind == NODE_MAPPING) diag_help(ck->diag, d, "start each one with `- `");
+    const struct node *first = n->kind == NODE_MAPPING && n->first ? node_resolve(n->first) : NULL;
+    if (first && first->kind == NODE_SCALAR && first->text[0] == '-' && isalpha((unsigned char)first->text[1]))
+        diag_help(ck->diag, d, "a space after the dash: write `- %s`", short_text(ck, first->text + 1));
+    else if (n->kind == NODE_MAPPING) diag_help(ck->diag, d, "start each one with `- `");
     else if (n->kind == NODE_SCALAR && has_key(key->of, n->text)) diag_help(ck->diag, d, "write `%s: [{%s: ...}]`", key->name, n->text);
     else if (key->example) diag_help(ck->diag, d, "as in `%s`", key->example);
 }
@@ -340,6 +477,8 @@ void report_no_name(struct checker *ck, const struct grammar_key *key, const str
         const char *all = "";
         for (const struct definition *def = among->first; def; def = def->next) all = arena_format(ck->arena, "%s%s%s", all, *all ? ", " : "", def->name);
         diag_note(ck->diag, d, "the presets are %s", all);
+    } else if (!scope_is_name(n->text) && strpbrk(n->text, "?(")) {
+        diag_help(ck->diag, d, "a name is not computed: give each its own item, with a `when`; or loop over names, `for: {part: [a, b]}`");
     } else if (among == &ck->templates) {
         diag_help(ck->diag, d, "define it: `define: {%s: {objects: [...]}}`", short_text(ck, n->text));
     } else if (!help_preset(ck, d, n->text) && !help_fitting(ck, d, key->of, n)) {

@@ -1,5 +1,6 @@
 #include "lang/problem.h"
 
+#include <ctype.h>
 #include <string.h>
 
 /* ---- What libyaml says, in the words of somebody who writes scenes ---- */
@@ -17,6 +18,8 @@ enum remedy {
 #define NO_UTF8 AT_PROBLEM, "this is not UTF-8 text", "save the file as UTF-8"
 #define NO_TAG "a scene has no tags", "remove what starts with `!`"
 #define NO_DIRECTIVE "a line that starts with % is a directive to YAML, and this one is wrong", "a scene needs none: remove the line"
+#define NO_ALIAS "an alias without a name"
+#define MISSING "a value is missing here"
 #define NO_QUOTE_END AT_CONTEXT, "this quote is never closed", "close it"
 
 /* The first row whose words are in libyaml's message is taken; NULL stands for any. */
@@ -37,7 +40,7 @@ static const struct row {
     {"a tag", NULL, AT_CONTEXT, NO_TAG},
     {NULL, "incompatible YAML", AT_PROBLEM, "a version of YAML that is not known here", "a scene needs no such line: remove it"},
     {"anchor", NULL, AT_CONTEXT, "an anchor without a name", "as in `&gold`, of letters, digits, - and _; `&` in a text needs quotes around it"},
-    {"alias", NULL, AT_CONTEXT, "an alias without a name", "as in `*gold`, of letters, digits, - and _; `*` in a text needs quotes around it"},
+    {"alias", NULL, AT_CONTEXT, NO_ALIAS, "as in `*gold`, of letters, digits, - and _; `*` in a text needs quotes around it"},
     {"quoted scalar", "end of stream", NO_QUOTE_END},
     {"quoted scalar", "document indicator", NO_QUOTE_END},
     {"quoted scalar", "unknown escape", AT_PROBLEM, "a backslash with a letter that means nothing", "write `\\\\` for a backslash, or put the text into single quotes"},
@@ -56,7 +59,7 @@ static const struct row {
     {"block mapping", NULL, INDENT, NULL, NULL},
     {"block collection", NULL, INDENT, NULL, NULL},
     {NULL, "<document start>", START, NULL, NULL},
-    {NULL, "node content", AT_PROBLEM, "a value is missing here", "give it one, or remove the comma"},
+    {NULL, "node content", AT_PROBLEM, MISSING, "give it one, or remove the comma"},
 };
 
 static const struct row *find_row(const struct node_problem *p) {
@@ -107,10 +110,29 @@ static const struct source_level *nearest_level(const struct source_level *level
     return best;
 }
 
+/* The key of that column, which is there. */
+static struct source_level level_at(const struct source_level *levels, int count, uint32_t column) {
+    int i = 0;
+    while (i < count - 1 && (levels[i].column != column || levels[i].dash)) i++;
+    return levels[i];
+}
+
 static bool has_level(const struct source_level *levels, int count, struct source_level like) {
     for (int i = 0; i < count; i++)
         if (levels[i].column == like.column && levels[i].dash == like.dash) return true;
     return false;
+}
+
+/* `-sphere:` is a key to YAML. The help for it. */
+static bool help_dash(const struct report *r, struct diagnostic *d, struct source_level level) {
+    size_t end;
+    const size_t i = source_line(r->source, level.line, &end) + level.column;
+    if (level.dash || i + 1 >= end || r->source->text[i] != '-' || !isalpha((unsigned char)r->source->text[i + 1])) return false;
+    size_t stop = i + 1;
+    while (stop < end && !strchr(" :", r->source->text[stop])) stop++;
+    const char *which = level.line == d->place.line - 1 ? "" : " of the item above";
+    diag_help(r->diag, d, "a space after the dash%s: write `- %.*s`", which, (int)(stop - i - 1), r->source->text + i + 1);
+    return true;
 }
 
 /* A line whose first key or dash stands in a column of its own. False when that is not what is wrong. */
@@ -122,7 +144,8 @@ static bool report_indent(const struct report *r, uint32_t line) {
     const struct source_level *sibling = nearest_level(levels, count, own[0]);
     if (has_level(levels, count, (struct source_level){.column = own[0].column, .dash = !own[0].dash})) {
         struct diagnostic *d = diag_error(r->diag, at, "bad-indentation", own[0].dash ? "a list item among keys" : "a key among list items");
-        diag_help(r->diag, d, own[0].dash ? "remove the `- `" : "start it with `- `, or indent it into an item");
+        const struct source_level other = own[0].dash ? level_at(levels, count, own[0].column) : own[0];
+        if (!help_dash(r, d, other)) diag_help(r->diag, d, own[0].dash ? "remove the `- `" : "start it with `- `, or indent it into an item");
         return true;
     }
     if (!sibling || sibling->column == own[0].column) return false;
@@ -203,6 +226,113 @@ static void report_start(const struct report *r, struct span at) {
     diag_help(r->diag, d, directive ? "remove the lines that start with %%, or put a line `---` after them" : "remove it, or what ends the scene above it");
 }
 
+/* ---- What is no slip of YAML's grammar ---- */
+
+static bool starts_with(const struct source *source, const char *bytes, size_t count) {
+    return source->size >= count && memcmp(source->text, bytes, count) == 0;
+}
+
+/* A picture, a program: told as such, whichever of its bytes came first. */
+static bool report_binary(const struct report *r) {
+    static const char *const starts[][2] = {{"\x89PNG", "a PNG picture"}, {"\xff\xd8\xff", "a JPEG picture"}, {"GIF8", "a GIF picture"},
+                                            {"%PDF", "a PDF document"},   {"PK\x03\x04", "a zip archive"},     {"\x1f\x8b", "a compressed file"},
+                                            {"\x7f" "ELF", "a program"}};
+    const struct source *source = r->source;
+    const char *what = NULL;
+    for (size_t i = 0; i < sizeof starts / sizeof *starts; i++)
+        if (starts_with(source, starts[i][0], strlen(starts[i][0]))) what = starts[i][1];
+    const bool wide = starts_with(source, "\xff\xfe", 2) || starts_with(source, "\xfe\xff", 2); /* UTF-16 */
+    int zeros = 0;
+    for (size_t i = 0; i < source->size && i < 512; i++) zeros += source->text[i] == '\0';
+    if (!what && !wide && zeros >= 4) what = "a binary file";
+    if (!what) return false;
+    struct diagnostic *d = diag_error(r->diag, (struct span){source, 0, 0, 1}, "not-yaml", "this is %s, no scene", what);
+    diag_help(r->diag, d, "a scene is text in YAML; is it the right file?");
+    return true;
+}
+
+/* The digits of a colour in hexadecimal at text[i], or 0. */
+static size_t hex_color(const char *text, size_t i, size_t end) {
+    size_t n = i;
+    while (n < end && isxdigit((unsigned char)text[n])) n++;
+    const bool ends = n == end || strchr(" ,]}\r\n", text[n]);
+    return ends && (n - i == 3 || n - i == 6) ? n - i : 0;
+}
+
+/* In `{diffuse: #ff0000}` the rest of the line is a comment, with its bracket. */
+static bool report_hash_in(const struct report *r, uint32_t line) {
+    size_t end;
+    const size_t begin = source_line(r->source, line, &end);
+    const char *text = r->source->text;
+    char quote = '\0';
+    bool open = false;
+    uint32_t column = 0;
+    for (size_t i = begin; i < end; i += source_character(r->source, i), column++) {
+        if (quote || text[i] == '"' || text[i] == '\'') {
+            if (!quote) quote = text[i];
+            else if (text[i] == quote) quote = '\0';
+            continue;
+        }
+        open |= text[i] == '{' || text[i] == '[';
+        if (text[i] != '#' || i == begin || text[i - 1] != ' ') continue;
+        const size_t digits = open ? hex_color(text, i + 1, end) : 0;
+        if (digits == 0) return false;
+        struct diagnostic *d = diag_error(r->diag, (struct span){r->source, line, column, (uint32_t)digits + 1}, "not-yaml",
+                                          "a `#` after a space starts a comment: the rest of the line is lost");
+        diag_help(r->diag, d, "quote the colour: \"%.*s\"", (int)digits + 1, text + i);
+        return true;
+    }
+    return false;
+}
+
+static bool report_hash(const struct report *r) {
+    enum { LINES = 20 }; /* that an open bracket is looked for */
+    const uint32_t last = r->p->at.line;
+    for (uint32_t line = last > LINES ? last - LINES : 0; line <= last; line++)
+        if (report_hash_in(r, line)) return true;
+    return false;
+}
+
+/* Where a value begins on its line that goes on at `at`; `at` itself: nothing of it stands before. */
+static size_t value_begin(const char *text, size_t line, size_t at) {
+    size_t i = at;
+    for (int depth = text[at] == ')'; i > line; i--) {
+        const char c = text[i - 1];
+        if (depth == 0 && (strchr(",[{", c) || (c == ':' && text[i] == ' '))) break;
+        depth += c == ')' || c == ']' ? 1 : (c == '(' || c == '[') && depth > 0 ? -1 : 0;
+    }
+    while (text[i] == ' ') i++;
+    return i < at ? i : at;
+}
+
+/* Where it ends; `begin`: not on its line. */
+static size_t value_end(const char *text, size_t begin, size_t line_end) {
+    size_t i = begin;
+    int depth = 0;
+    for (; i < line_end; i++) {
+        if (depth == 0 && strchr(",]}", text[i])) break;
+        depth += strchr("([{", text[i]) ? 1 : strchr(")]}", text[i]) ? -1 : 0;
+    }
+    while (i > begin && text[i - 1] == ' ') i--;
+    return depth == 0 ? i : begin;
+}
+
+/* In `{eye: last * [1, 2, 3]}` a bracket stands within a value, in `[1, 2, 3] * last` what is an alias to YAML. */
+static bool report_bracket_within(const struct report *r, struct span at) {
+    const char *text = r->source->text;
+    size_t stop;
+    const size_t line = source_line(r->source, at.line, &stop), i = source_offset(at);
+    if (i >= stop || !strchr("[{)*", text[i])) return false;
+    const size_t begin = value_begin(text, line, i), end = value_end(text, begin, stop);
+    if (begin == i || memchr(text + begin, '"', end - begin)) return false;
+    struct diagnostic *d = diag_error(r->diag, at, "not-yaml", "a `%c` within a value that has begun before it", text[i]);
+    if (end == begin) diag_help(r->diag, d, "put the whole value into quotes");
+    else diag_help(r->diag, d, "put the value into quotes: \"%.*s\"", (int)(end - begin), text + begin);
+    return true;
+}
+
+/* ---- The report ---- */
+
 static void report_bracket(const struct report *r, const struct row *row) {
     const struct span at = r->p->at, opened = r->p->context_at;
     char bracket[8];
@@ -211,14 +341,17 @@ static void report_bracket(const struct report *r, const struct row *row) {
         diag_help(r->diag, diag_error(r->diag, opened, "unclosed-bracket", "this `%s` is never closed", bracket), "add `%s`", *bracket == '[' ? "]" : "}");
         return;
     }
+    if (report_bracket_within(r, at)) return;
     char found[8];
     character_at(r, at, found);
     struct diagnostic *d = diag_error(r->diag, at, "not-yaml", "%s", row->message);
-    diag_help(r->diag, d, "%s", *found == ':' ? "add `,` before this key" : row->help);
+    size_t end;
+    source_line(r->source, opened.line, &end);
+    const bool filled = source_offset(opened) + 1 < end; /* something stands behind the bracket: its line may be all of it */
+    if (*found == ':' && at.line != opened.line && filled) diag_help(r->diag, d, "close the `%s` with `%s`, or add `,` before this key", bracket, *bracket == '[' ? "]" : "}");
+    else diag_help(r->diag, d, "%s", *found == ':' ? "add `,` before this key" : row->help);
     diag_related(r->diag, d, opened, "`%s` opens here", bracket);
 }
-
-/* ---- The report ---- */
 
 static bool report_line(const struct report *r) {
     struct source_level own[SOURCE_MAX_LEVELS];
@@ -228,7 +361,10 @@ static bool report_line(const struct report *r) {
 void problem_report(struct diagnostics *diag, const struct node_problem *problem) {
     const struct report report = {diag, problem->at.source, problem}, *r = &report;
     const struct row *row = find_row(problem);
-    if (report_invisible(r, problem->at.line)) return;
+    if (report_binary(r) || report_invisible(r, problem->at.line)) return;
+    const bool within = row && (row->remedy == BRACKET || strcmp(row->message ? row->message : "", MISSING) == 0);
+    if (within && report_hash(r)) return;
+    if (row && row->message && strcmp(row->message, NO_ALIAS) == 0 && report_bracket_within(r, problem->context_at)) return;
     switch (row ? row->remedy : AT_PROBLEM) {
     case BRACKET: report_bracket(r, row); return;
     case COLON: report_colon(r, problem->at); return;

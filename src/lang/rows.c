@@ -37,6 +37,17 @@ static void help_other_form(struct checker *ck, struct diagnostic *d, const stru
     else if (n->text[0] == '(') diag_help(ck->diag, d, "a list stands in [ ]");
 }
 
+/* In `[0,5, 1, 2]` the comma that was meant as a decimal point has no space behind it. */
+static void help_decimal_comma(struct checker *ck, struct diagnostic *d, const struct node *n) {
+    for (const struct node *item = n->first, *next = item ? item->next : NULL; next; item = next, next = next->next) {
+        const size_t at = next->span.source ? source_offset(next->span) : 0;
+        if (at == 0 || item->kind != NODE_SCALAR || next->kind != NODE_SCALAR || next->span.source->text[at - 1] != ',') continue;
+        if (!scalar_is_number(item->text) || strchr(item->text, '.') || strspn(next->text, "0123456789") != next->count) continue;
+        diag_help(ck->diag, d, "a decimal point is a point: did you mean %s.%s?", short_text(ck, item->text), short_text(ck, next->text));
+        return;
+    }
+}
+
 /* Exactly `count` numbers of a list, checked one by one with `check`. */
 static bool check_row(struct checker *ck, const struct grammar_key *key, const struct node *node, const char *form, int count,
                       const char *const names[3], check_item *check, double *out) {
@@ -46,12 +57,14 @@ static bool check_row(struct checker *ck, const struct grammar_key *key, const s
         if (names && !diag_full(ck->diag)) help_other_form(ck, d, n, count, names);
         return false;
     }
+    if (report_cut_in(ck, key->name, n)) return false;
     if (n->count != (uint32_t)count) {
         const bool numbers = n->count > 0 && all_scalars(n);
         struct diagnostic *d = numbers ? diag_error(ck->diag, node->span, "wrong-count", "`%s`: expected %s, found %u number%s", key->name, form,
                                                     (unsigned)n->count, n->count == 1 ? "" : "s")
                                        : diag_error(ck->diag, node->span, "not-a-row", "`%s`: expected %s, found %s", key->name, form, found_text(ck, node));
-        if (numbers && names) help_missing(ck, d, n->count, count, names);
+        if (numbers && n->count > (uint32_t)count) help_decimal_comma(ck, d, n);
+        else if (numbers && names) help_missing(ck, d, n->count, count, names);
         else if (!numbers && n->count == 1) diag_help(ck->diag, d, "one pair of brackets is enough");
         return false;
     }
@@ -102,10 +115,27 @@ bool check_vector(struct checker *ck, const struct grammar_key *key, const struc
     return true;
 }
 
+/* `size: 2 * small`. QUANTITY_NONE: it is no such expression. */
+static enum quantity_result read_size(struct checker *ck, const struct grammar_key *key, const struct node *node, double v[2]) {
+    struct quantity q;
+    const enum quantity_result result = node_resolve(node)->kind == NODE_SCALAR ? scope_quantity(ck, key->name, node, &q) : QUANTITY_NONE;
+    if (result == QUANTITY_UNKNOWN) memcpy(v, key->value, 2 * sizeof *v);
+    if (result != QUANTITY_OK) return result;
+    if (q.count != 2) return QUANTITY_NONE;
+    for (int i = 0; i < 2; i++) {
+        const char *text = arena_format(ck->arena, "%.17g", q.v[i]);
+        const struct node part = {.span = node->span, .kind = NODE_SCALAR, .text = text, .count = (uint32_t)strlen(text)};
+        if (!check_integer(ck, key, &part, &v[i])) return QUANTITY_WRONG;
+    }
+    return QUANTITY_OK;
+}
+
 bool check_size(struct checker *ck, const struct grammar_key *key, const struct node *node, vec3 *out) {
     static const char *const names[3] = {"width", "height"};
     double v[2];
-    if (!check_row(ck, key, node, "[width, height]", 2, names, check_integer, v)) return false;
+    const enum quantity_result whole = read_size(ck, key, node, v);
+    if (whole == QUANTITY_WRONG || (whole == QUANTITY_UNKNOWN && !ck->rehearsing)) return false;
+    if (whole == QUANTITY_NONE && !check_row(ck, key, node, "[width, height]", 2, names, check_integer, v)) return false;
     *out = (vec3){v[0], v[1], 0};
     return true;
 }

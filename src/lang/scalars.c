@@ -69,7 +69,17 @@ static bool help_base(struct checker *ck, struct diagnostic *d, const char *text
     return true;
 }
 
-/* 45deg, 10px, 5%. */
+/* What is no number even without it: `a − 1`. */
+static bool help_lookalike(struct checker *ck, struct diagnostic *d, const char *text) {
+    for (size_t i = 0; i < sizeof lookalikes / sizeof *lookalikes; i++) {
+        if ((unsigned char)lookalikes[i].bytes[0] < 0x80 || !strstr(text, lookalikes[i].bytes)) continue;
+        diag_help(ck->diag, d, "it has %s in it: write `%s`", lookalikes[i].name, *lookalikes[i].plain ? lookalikes[i].plain : " ");
+        return true;
+    }
+    return false;
+}
+
+/* 45deg, 10px, 5%; `2r` of a variable r. */
 static bool help_unit(struct checker *ck, struct diagnostic *d, const char *text) {
     const size_t digits = strspn(text, "+-.0123456789");
     const char *number = arena_text(ck->arena, text, digits), *unit = text + digits;
@@ -81,7 +91,8 @@ static bool help_unit(struct checker *ck, struct diagnostic *d, const char *text
     }
     for (const char *c = unit; *c; c++)
         if (!isalpha((unsigned char)*c)) return false;
-    diag_help(ck->diag, d, "numbers have no unit here: did you mean %s?", number);
+    if (scope_find(ck, unit)) diag_help(ck->diag, d, "to multiply, write `%s * %s`", number, unit);
+    else diag_help(ck->diag, d, "numbers have no unit here: did you mean %s?", number);
     return true;
 }
 
@@ -113,16 +124,33 @@ void scalar_help_variable(struct checker *ck, struct diagnostic *d, const char *
 static void help_scalar(struct checker *ck, struct diagnostic *d, const char *text) {
     const char *what = NULL, *mended = mend_lookalike(ck, text, &what);
     if (mended) diag_help(ck->diag, d, "it has %s in it: did you mean %s?", what, mended);
-    else if (help_base(ck, d, text) || help_unit(ck, d, text)) return;
+    else if (help_base(ck, d, text) || help_unit(ck, d, text) || help_lookalike(ck, d, text)) return;
     else if (spelling_distance(text, ".inf") <= 1 || spelling_distance(text, ".nan") <= 1 || spelling_distance(text, "-.inf") <= 1)
         diag_help(ck->diag, d, "a number is finite");
     else if (scope_is_name(text)) scalar_help_variable(ck, d, text);
 }
 
+/* The text that the variable stands for, which is no number; NULL: it is no such variable. */
+static const struct node *text_of_variable(struct checker *ck, const struct node *n) {
+    const struct binding *b = n->kind == NODE_SCALAR && scope_is_name(n->text) ? scope_find(ck, n->text) : NULL;
+    const struct node *value = b && b->kind == BINDING_NODE ? node_resolve(b->node) : NULL;
+    return value && value->kind == NODE_SCALAR && value->count <= 100 ? value : NULL;
+}
+
+static void report_no_number_in(struct checker *ck, const struct grammar_key *key, const struct node *node, const struct node *text) {
+    struct diagnostic *d = diag_error(ck->diag, node->span, "not-a-number", "`%s`: expected %s, found %s, which is %s", key->name, wanted_number(key), found_text(ck, node), found_text(ck, text));
+    help_scalar(ck, d, text->text);
+    diag_related(ck->diag, d, text->span, "its value is here");
+}
+
 /* `value`: what the node is instead; NULL: it has none. */
 static void report_no_number(struct checker *ck, const struct grammar_key *key, const struct node *node, const struct quantity *value) {
     if (only_counted(ck, node->span)) return;
-    const struct node *n = node_resolve(node);
+    const struct node *n = node_resolve(node), *text = value ? NULL : text_of_variable(ck, n);
+    if (text) {
+        report_no_number_in(ck, key, node, text);
+        return;
+    }
     struct diagnostic *d = diag_error(ck->diag, node->span, "not-a-number", "`%s`: expected %s, found %s", key->name,
                                       wanted_number(key), value ? found_quantity(ck, node, value) : found_text(ck, node));
     if (n->kind == NODE_SEQUENCE && n->count == 3)

@@ -126,17 +126,10 @@ static struct span span_within(const struct node *n, size_t offset, size_t lengt
     return span;
 }
 
-/* In `{center: max(1, 2)}` YAML ends the value at the comma. */
-static bool is_cut_by_comma(const struct node *n, const struct expr_error *error) {
-    const size_t end = n->span.source ? source_offset(n->span) + n->count : 0;
-    return !n->quoted && error->offset < n->count && strchr("([", n->text[error->offset]) && end < n->span.source->size &&
-           n->span.source->text[end] == ',';
-}
-
 static enum quantity_result report(struct checker *ck, const char *what, const struct node *n, const struct expr_error *error) {
+    if (report_cut(ck, what, n)) return QUANTITY_WRONG;
     struct diagnostic *d = diag_error(ck->diag, span_within(n, error->offset, error->length), error->code, "`%s`: %s", what, error->message);
-    if (is_cut_by_comma(n, error)) diag_help(ck->diag, d, "a comma ends the value here: put it all into quotes, or a list into [ ]");
-    else if (strcmp(error->code, "unknown-variable") == 0 && scope_needs_animation(ck, arena_text(ck->arena, n->text + error->offset, error->length)))
+    if (strcmp(error->code, "unknown-variable") == 0 && scope_needs_animation(ck, arena_text(ck->arena, n->text + error->offset, error->length)))
         diag_help(ck->diag, d, "for `frame`, `t` and `time` add `animation: {frames: 24}`");
     else if (error->help) diag_help(ck->diag, d, "%s", error->help);
     return QUANTITY_WRONG;
@@ -190,6 +183,7 @@ static enum quantity_result scalar_quantity(struct checker *ck, const char *what
 }
 
 static enum quantity_result list_quantity(struct checker *ck, const char *what, const struct node *n, struct quantity *out) {
+    if (report_cut_in(ck, what, n)) return QUANTITY_WRONG;
     if (n->count < 2 || n->count > 4) return QUANTITY_NONE;
     enum quantity_result all = QUANTITY_OK;
     struct quantity vector = {.count = 0};

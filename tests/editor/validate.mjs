@@ -17,6 +17,7 @@ const CATCHABLE = new Set(`unknown-key missing-key no-value one-of-them no-alter
 
 // Scenes whose mistakes have such codes and still cannot be seen, with the reason.
 const EXCEPTIONS = {
+    color_grey_variable: "only the loader knows what a parameter stands for",
     color_unknown: "a word may be the name of a parameter",
     expr_names: "a word may be the name of a parameter",
     expr_values: "only the loader knows what an expression gives",
@@ -29,6 +30,7 @@ const EXCEPTIONS = {
     param_range_template: "values of parameters and their ranges, which a schema cannot compare",
     param_value: "only the loader knows what a parameter stands for",
     point_words: "a word may be the name of a parameter",
+    size_expression: "only the loader knows what an expression gives",
     text_long: "a word may be the name of a parameter",
     text_long_utf8: "a word may be the name of a parameter",
 };
