@@ -186,6 +186,11 @@ void loop_run(struct checker *ck, const struct node *node, void (*turn)(struct c
         diag_help(ck->diag, d, "as in `for: {i: 9}`");
         return;
     }
+    enum { MOST = 16 };
+    if (n->count > MOST) {
+        diag_error(ck->diag, node->span, "limit-nesting", "a loop of %u variables: more than %d", n->count, MOST);
+        return;
+    }
     const bool allowed = names_allowed(ck, n);
     struct binding *bindings = arena_array(ck->arena, n->count, sizeof *bindings);
     struct loop loop = {.frame = {.span = node->span, .text = turn_text}, .ck = ck, .scope = {ck->scope, bindings, 0},
