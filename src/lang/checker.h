@@ -80,7 +80,7 @@ struct checker {
     bool stopped;              /* a limit was passed: evaluation is over */
     bool moved;                /* the animation's variables were read */
     unsigned depth;            /* of templates in use */
-    unsigned groups;           /* that are open, through all templates */
+    unsigned groups, loops;    /* groups and variables of loops that are open, through all templates */
     unsigned waiters;          /* parameters that are being read, each for the one before */
     size_t steps, objects;     /* against the limits */
 };

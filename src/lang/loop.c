@@ -140,7 +140,10 @@ static void run_variables(struct loop *loop, const struct node *name) {
     struct checker *ck = loop->ck;
     if (ck->stopped) return;
     if (name) {
+        enum { MOST = 1000 };
+        if (!place_nest(ck, name->span, &ck->loops, MOST, "variables of loops within each other")) return;
         loop->good &= run_variable(loop, name);
+        ck->loops--;
         return;
     }
     const struct diag_frame *outer = ck->diag->frame;
