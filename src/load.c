@@ -105,6 +105,7 @@ static bool load_scene(struct load *load) {
 }
 
 void face_report_full(struct diagnostics *diag, const char *name, size_t memory_bytes) {
+    diag->frame = NULL; /* what was under way is over */
     diag_failure(diag, "limit-memory", "%s: takes more memory than there is, or than %zu bytes (the limit `memory_bytes`)", name, memory_bytes);
 }
 

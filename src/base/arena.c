@@ -27,6 +27,13 @@ static _Noreturn void arena_full(struct arena *arena) {
     abort();
 }
 
+jmp_buf *arena_catch(struct arena *arena, jmp_buf *full) {
+    while (arena->parent) arena = arena->parent;
+    jmp_buf *before = arena->on_full;
+    arena->on_full = full;
+    return before;
+}
+
 static bool has_room(const struct arena *arena, size_t bytes) {
     for (; arena; arena = arena->parent)
         if (arena->limit && (bytes > arena->limit || arena->total > arena->limit - bytes)) return false;

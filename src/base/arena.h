@@ -31,6 +31,9 @@ char *arena_text(struct arena *arena, const char *text, size_t length); /* a cop
 char *arena_format(struct arena *arena, const char *format, ...) __attribute__((format(printf, 2, 3)));
 void arena_free(struct arena *arena); /* leaves it empty, ready for use */
 
+/* From now on the way out of the arena, which is its outermost parent's, is `full`; returns the one before. */
+jmp_buf *arena_catch(struct arena *arena, jmp_buf *full);
+
 /* A mark to go back to: what was allocated since is freed. Marks nest. */
 struct arena_mark {
     struct arena_block *block;

@@ -82,6 +82,8 @@ struct checker {
     bool stopped;              /* a limit was passed: evaluation is over */
     bool moved;                /* the animation's variables were read */
     unsigned depth;            /* of templates in use */
+    unsigned groups, loops;    /* groups and variables of loops that are open, through all templates */
+    unsigned waiters;          /* parameters that are being read, each for the one before */
     size_t steps, objects;     /* against the limits */
 };
 
@@ -206,12 +208,18 @@ const struct node *place_default(const struct node *declared);
 /* One level further into what names stand for, ck->depth counts them: false, and reported, past the limit. */
 bool place_descend(struct checker *ck, struct span span);
 
+/* The same of what the stack alone bounds: `depth` is counted, and may be `most`, of `what`. */
+bool place_nest(struct checker *ck, struct span span, unsigned *depth, unsigned most, const char *what);
+
 /* ---- keyframes.c ---- */
 
 bool keyframes_is(const struct node *node);
 enum quantity_result keyframes_read(struct checker *ck, const struct node *node, struct quantity *out);
 
 /* ---- mistakes.c: what is wrong with keys and mappings, and the smallest fix ---- */
+
+/* `all` with one more name behind it; a long list ends in an ellipsis. */
+const char *append_name(struct checker *ck, const char *all, const char *name);
 
 /* Whether there is room for the count of mistakes alone: then it is counted, and its text need not be made. */
 bool only_counted(struct checker *ck, struct span span);

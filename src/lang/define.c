@@ -165,7 +165,12 @@ const struct binding *define_parameter(struct checker *ck, struct parameter *p) 
         p->binding = (struct binding){.name = p->name, .kind = BINDING_UNKNOWN};
         return &p->binding;
     }
-    if (!place_descend(ck, p->node->span)) return NULL;
+    enum { MOST = 40 }; /* expressions, each 100 levels deep */
+    if (!place_nest(ck, p->span, &ck->waiters, MOST, "parameters that wait for each other")) return NULL;
+    if (!place_descend(ck, p->node->span)) {
+        ck->waiters--;
+        return NULL;
+    }
     const struct elsewhere here = leave(ck);
     const struct node *value = p->given ? p->given : place_default(p->node);
     p->state = READING_UNDER_WAY;
@@ -179,6 +184,7 @@ const struct binding *define_parameter(struct checker *ck, struct parameter *p) 
     const bool later = ck->waiting;
     ck->waiting |= waited;
     come_back(ck, &here);
+    ck->waiters--;
     if (later) return NULL;
     if (!good) p->binding.kind = BINDING_UNKNOWN; /* reported: what uses it is not to blame */
     return &p->binding;
@@ -384,7 +390,7 @@ static void report_unknown_parameter(struct checker *ck, const char *name) {
     const char *all = "";
     for (const struct parameter *p = ck->first_parameter; p; p = p->next) {
         spelling_offer(&s, p->name);
-        all = arena_format(ck->arena, "%s%s%s", all, *all ? ", " : "", p->name);
+        all = append_name(ck, all, p->name);
     }
     struct span nowhere = {ck->input->source, 0, 0, 1};
     struct diagnostic *d = diag_error(ck->diag, nowhere, "unknown-parameter", "the scene has no parameter `%s` to set by -D", short_text(ck, name));

@@ -54,8 +54,14 @@ const struct source *file_read_bytes(struct arena *arena, struct diagnostics *di
         diag_failure(diag, "cannot-read", "cannot read %s: %s", path, strerror(errno));
         return NULL;
     }
-    const struct source *source = read_stream(arena, diag, path, in, limit);
+    /* The arena leaves by longjmp when it is full; the file must be closed on that way as well. */
+    jmp_buf full, *const outer = arena_catch(arena, &full);
+    const struct source *volatile source = NULL;
+    const bool is_full = setjmp(full) != 0;
+    if (!is_full) source = read_stream(arena, diag, path, in, limit);
     fclose(in);
+    arena_catch(arena, outer);
+    if (is_full && outer) longjmp(*outer, 1);
     return source;
 }
 

@@ -30,18 +30,19 @@ static void report_missing(struct checker *ck, const struct node *node, const ch
     const struct node *n = node_resolve(node);
     struct diagnostic *d = diag_error(ck->diag, node->span, "include-missing", "cannot read `%s`: %s", short_text(ck, n->text), strerror(reason));
     if (strcmp(path, n->text) != 0) diag_note(ck->diag, d, "looked for it at %s", path);
-    if (reason == EISDIR) return;
+    if (reason == EINVAL) diag_help(ck->diag, d, "what is included is a regular file");
+    if (reason == EISDIR || reason == EINVAL) return;
     const char *folder = arena_format(ck->arena, "%.*s", (int)folder_length(path), path);
     DIR *files = opendir(*folder ? folder : ".");
     if (!files) diag_help(ck->diag, d, "there is no folder %s", folder);
     struct spelling s = spelling_begin(path + folder_length(path));
-    const char *best = NULL;
+    char best[sizeof ((struct dirent *)0)->d_name] = ""; /* the arena might leave while the folder is open */
     for (struct dirent *file = files ? readdir(files) : NULL; file; file = readdir(files)) {
         spelling_offer(&s, file->d_name);
-        if (s.best == file->d_name) s.best = best = arena_text(ck->arena, file->d_name, strlen(file->d_name));
+        if (s.best == file->d_name) s.best = strcpy(best, file->d_name);
     }
     if (files) closedir(files);
-    if (best) diag_help(ck->diag, d, "did you mean `%.*s%s`?", (int)folder_length(n->text), n->text, best);
+    if (*best) diag_help(ck->diag, d, "did you mean `%.*s%s`?", (int)folder_length(n->text), n->text, best);
 }
 
 static void report_no_definitions(struct checker *ck, const struct unit *unit) {
@@ -89,8 +90,8 @@ static struct included *find_file(struct checker *ck, const struct node *node, c
     if (file) return file;
     if (!is_allowed(ck, node, path)) return NULL;
     errno = 0;
-    if (stat(path, &status) != 0 || S_ISDIR(status.st_mode)) {
-        if (!errno) errno = EISDIR;
+    if (stat(path, &status) != 0 || !S_ISREG(status.st_mode)) { /* a pipe might never end, nor begin */
+        if (!errno) errno = S_ISDIR(status.st_mode) ? EISDIR : EINVAL;
         report_missing(ck, node, path);
         return NULL;
     }

@@ -97,6 +97,7 @@ struct reading {
     struct lang_input input;
     struct lang_files files; /* where the input has none */
     struct unit *scene;
+    struct checker ready; /* as it was after the reading, for each frame */
 };
 
 static struct reading *begin_reading(struct lang_memory *memory, struct diagnostics *diag, const struct lang_input *input) {
@@ -125,7 +126,7 @@ static struct object_value *read_file(struct checker *ck, struct arena *arena, c
 struct lang_result lang_read(struct lang_memory *memory, struct diagnostics *diag, const struct lang_input *input) {
     struct reading *reading = begin_reading(memory, diag, input);
     struct checker *ck = &reading->checker;
-    const unsigned errors = diag->errors;
+    const unsigned errors = diag->errors + diag->failures;
     struct unit *unit = reading->scene = read_scene(ck);
     if (!unit) return (struct lang_result){0};
     ck->provisional = false;
@@ -134,10 +135,11 @@ struct lang_result lang_read(struct lang_memory *memory, struct diagnostics *dia
     if (file && file->fields[KEY_FILE_SCENE]) place_members(ck, KIND_FILE, KEY_FILE_SCENE, file->fields[KEY_FILE_SCENE]->node);
     if (file) check_included(ck);
     if (file) define_check_given(ck);
-    if (file) file->failed = diag->errors != errors;
+    if (file) file->failed = diag->errors + diag->failures != errors;
     if (file && !file->failed) define_warn_unused(ck);
     const unsigned frames = ck->animation ? (unsigned)object_number(ck->animation, KEY_ANIMATION_FRAMES) : 0;
     ck->arena = &memory->kept;
+    reading->ready = *ck;
     return (struct lang_result){file, named_materials(ck), ck->moved, frames, ck};
 }
 
@@ -146,6 +148,7 @@ void lang_read_frame(struct lang_result *result, struct diagnostics *diag, unsig
     struct reading *reading = (struct reading *)ck; /* its first member */
     const unsigned errors = diag->errors;
     arena_free(&ck->memory->scratch);
+    *ck = reading->ready; /* the frame before may have stopped anywhere */
     reading->input.frame = frame;
     ck->diag = diag;
     ck->steps = 0;

@@ -161,7 +161,10 @@ static void run_variables(struct loop *loop, const struct node *name) {
     struct checker *ck = loop->ck;
     if (ck->stopped) return;
     if (name) {
+        enum { MOST = 1000 };
+        if (!place_nest(ck, name->span, &ck->loops, MOST, "variables of loops within each other")) return;
         loop->good &= run_variable(loop, name);
+        ck->loops--;
         return;
     }
     const struct diag_frame *outer = ck->diag->frame;
@@ -205,6 +208,11 @@ void loop_run(struct checker *ck, const struct node *node, void (*turn)(struct c
     if (n->kind != NODE_MAPPING || n->count == 0) {
         struct diagnostic *d = diag_error(ck->diag, node->span, "not-a-map", "`for`: expected variables, each with how often, found %s", found_text(ck, node));
         diag_help(ck->diag, d, "as in `for: {i: 9}`");
+        return;
+    }
+    enum { MOST = 16 };
+    if (n->count > MOST) {
+        diag_error(ck->diag, node->span, "limit-nesting", "a loop of %u variables: more than %d", n->count, MOST);
         return;
     }
     const bool allowed = names_allowed(ck, n);

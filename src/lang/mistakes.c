@@ -8,6 +8,13 @@
 
 /* ---- What was found ---- */
 
+const char *append_name(struct checker *ck, const char *all, const char *name) {
+    enum { LONG = 1000 };
+    const size_t length = strlen(all);
+    if (length > LONG) return all[length - 1] == '.' ? all : arena_format(ck->arena, "%s, ...", all);
+    return arena_format(ck->arena, "%s%s%s", all, *all ? ", " : "", short_text(ck, name));
+}
+
 bool only_counted(struct checker *ck, struct span span) {
     if (!diag_full(ck->diag)) return false;
     diag_error(ck->diag, span, "beyond", " ");

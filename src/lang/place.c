@@ -20,6 +20,15 @@ bool place_descend(struct checker *ck, struct span span) {
     return false;
 }
 
+bool place_nest(struct checker *ck, struct span span, unsigned *depth, unsigned most, const char *what) {
+    if (ck->stopped) return false;
+    if ((*depth)++ < most) return true;
+    --*depth;
+    ck->stopped = true;
+    diag_error(ck->diag, span, "limit-nesting", "more than %u %s", most, what);
+    return false;
+}
+
 /* What a file writes out is bounded by its size: only what is repeated counts. */
 bool place_count_step(struct checker *ck, const struct node *node) {
     if (ck->stopped) return false;
@@ -88,7 +97,7 @@ static void report_unknown_argument(struct checker *ck, const struct definition 
     const char *all = "";
     for (const struct node *p = parameters ? parameters->first : NULL; p; p = p->next->next) {
         spelling_offer(&s, node_resolve(p)->text);
-        all = arena_format(ck->arena, "%s%s%s", all, *all ? ", " : "", node_resolve(p)->text);
+        all = append_name(ck, all, node_resolve(p)->text);
     }
     struct diagnostic *d = diag_error(ck->diag, name->span, "unknown-argument", "`%s` has no parameter `%s`", template->name, short_text(ck, s.word));
     if (s.best) diag_help(ck->diag, d, "did you mean `%s`?", s.best);
@@ -196,10 +205,13 @@ static void place_use(struct checker *ck, const struct object_value *object) {
 
 static void place_group(struct checker *ck, const struct object_value *object) {
     const struct lang_sink *sink = ck->input->sink;
+    enum { MOST = 1000 };
     const bool live = is_live(ck);
+    if (!place_nest(ck, object->span, &ck->groups, MOST, "groups within each other")) return;
     if (live) sink->open_group(sink->context, object);
     place_members(ck, KIND_OBJECT, KEY_OBJECT_GROUP, object->fields[KEY_OBJECT_GROUP]->node);
     if (live) sink->close_group(sink->context);
+    ck->groups--;
 }
 
 static void place_object(struct checker *ck, const struct object_value *object) {

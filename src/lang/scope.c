@@ -81,7 +81,7 @@ const struct binding *scope_stands_for(struct checker *ck, const struct node *no
 static enum expr_found find_quantity(void *context, const char *name, struct quantity *out) {
     struct checker *ck = context;
     const struct binding *b = scope_find(ck, name);
-    if (!b) return ck->waiting || ck->variables_lost ? EXPR_LATER : EXPR_MISSING;
+    if (!b) return ck->waiting || ck->variables_lost || ck->stopped ? EXPR_LATER : EXPR_MISSING;
     if (b->kind == BINDING_UNKNOWN) return EXPR_LATER;
     if (b->kind == BINDING_QUANTITY) {
         *out = b->quantity;

@@ -482,16 +482,13 @@ struct node *node_parse(struct arena *arena, struct diagnostics *diag, const str
     yaml_parser_set_encoding(&rd.parser, YAML_UTF8_ENCODING);
 
     /* The arena leaves by longjmp when it is full; the parser must be freed on that way as well. */
-    jmp_buf *outer = arena->on_full, full;
+    jmp_buf full, *const outer = arena_catch(arena, &full);
     struct node *volatile root = NULL;
     const bool is_full = setjmp(full) != 0;
-    if (!is_full) {
-        arena->on_full = &full;
-        root = read_stream(&rd);
-    }
+    if (!is_full) root = read_stream(&rd);
     yaml_event_delete(&rd.event);
     yaml_parser_delete(&rd.parser);
-    arena->on_full = outer;
+    arena_catch(arena, outer);
     if (is_full && outer) longjmp(*outer, 1);
     return root;
 }
