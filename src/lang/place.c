@@ -178,8 +178,8 @@ static void open_template(struct checker *ck, const struct object_value *object,
     ck->diag->frame = &use.frame;
     bool again = is_live(ck) && sink->open_use(sink->context, object, &contents, exact) == LANG_USE_READ;
     while (again) {
-        place_members(ck, KIND_TEMPLATE, KEY_TEMPLATE_OBJECTS, values_of(template->object, KEY_TEMPLATE_OBJECTS));
-        again = sink->close_use(sink->context) && is_live(ck);
+        if (is_live(ck)) place_members(ck, KIND_TEMPLATE, KEY_TEMPLATE_OBJECTS, values_of(template->object, KEY_TEMPLATE_OBJECTS));
+        again = sink->close_use(sink->context); /* what is open is closed, live or not */
     }
     ck->diag->frame = use.frame.outer;
     ck->scope = outer;

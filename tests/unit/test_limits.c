@@ -42,7 +42,6 @@ static struct row {
     {"laughs by aliases", "a: &a [1, 1, 1, 1, 1]\nb: &b [*a, *a, *a, *a, *a]\nc: &c [*b, *b, *b, *b, *b]\nd: &d [*c, *c, *c, *c, *c]\nscene: []", "values"},
     {"laughs by groups and aliases",
      "scene:\n- group: &a [{sphere: {}}, {sphere: {}}, {sphere: {}}, {sphere: {}}]\n- group: &b [{group: *a}, {group: *a}, {group: *a}, {group: *a}]\n- group: [{group: *b}, {group: *b}, {group: *b}]", "objects"},
-    {"a loop of many variables", "scene: [{for: {a: 1, b: 1, c: 1, d: 1, e: 1, f: 1, g: 1, h: 1, i: 1, j: 1, k: 1, l: 1, m: 1, n: 1, o: 1, p: 1, q: 1}, sphere: {}}]", "nesting"},
     {"many values", NULL, "values"},
     {"deep groups", NULL, "nesting"},
 };
