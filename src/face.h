@@ -18,14 +18,14 @@ struct monge_scene {
     struct scene scene;
     struct accel *accel; /* in `body`; NULL: not prepared */
     /* Of an animation, else empty: */
-    struct arena texts;        /* its files, and what `input` points to */
-    struct lang_input input;   /* to read it again */
+    struct arena texts;      /* its files, and what `input` points to */
+    struct lang_input input; /* to read it again */
     struct lang_files files;
     size_t memory_bytes;       /* for that */
     struct lang_memory memory; /* of the reading, where only the file itself depends on the frame */
     struct lang_result result; /* in `memory` */
-    struct outline *outline; /* NULL: not wanted */
-    size_t built_bytes;      /* of the scene, without the hierarchy */
+    struct outline *outline;   /* NULL: not wanted */
+    size_t built_bytes;        /* of the scene, without the hierarchy */
 };
 
 /* Each limit as it is given, or its default; within what the program can do. given may be NULL. */

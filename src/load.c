@@ -11,9 +11,13 @@
 
 /* ---- Limits ---- */
 
-static const struct monge_limits default_limits = {
-    .file_bytes = (size_t)1 << 30, .memory_bytes = (size_t)8 << 30, .values = 100 * 1000 * 1000, .nesting = 100,
-    .recursion = 100, .steps = 10 * 1000 * 1000, .objects = 20 * 1000 * 1000};
+static const struct monge_limits default_limits = {.file_bytes = (size_t)1 << 30,
+                                                   .memory_bytes = (size_t)8 << 30,
+                                                   .values = 100 * 1000 * 1000,
+                                                   .nesting = 100,
+                                                   .recursion = 100,
+                                                   .steps = 10 * 1000 * 1000,
+                                                   .objects = 20 * 1000 * 1000};
 
 enum { MAX_NESTING = 1000, MAX_RECURSION = 1000 }; /* what the stack of a thread has room for */
 
@@ -56,7 +60,9 @@ static const struct source *read_source(struct load *load) {
     return file_read(&load->scene->texts, load->diag, load->name, load->options.limits.file_bytes);
 }
 
-static const char *copy_text(struct arena *arena, const char *text) { return arena_text(arena, text, strlen(text)); }
+static const char *copy_text(struct arena *arena, const char *text) {
+    return arena_text(arena, text, strlen(text));
+}
 
 static const struct lang_define *copy_defines(struct load *load) {
     struct arena *arena = &load->scene->texts;
@@ -88,7 +94,8 @@ static bool read_input(struct load *load) {
 }
 
 /* Reads all of the input into a scene of its own; *result lives in `memory`. outline: NULL where none is wanted. */
-static bool read_all(struct lang_input input, struct outline **outline, struct diagnostics *diag, struct lang_memory *memory, struct arena *arena, struct scene *scene,
+static bool read_all(struct lang_input input, struct outline **outline, struct diagnostics *diag,
+                     struct lang_memory *memory, struct arena *arena, struct scene *scene,
                      struct lang_result *result) {
     const unsigned errors = diag->errors;
     struct lang_sink sink;
@@ -101,12 +108,16 @@ static bool read_all(struct lang_input input, struct outline **outline, struct d
 
 static bool load_scene(struct load *load) {
     struct monge_scene *scene = load->scene;
-    return read_input(load) && read_all(scene->input, load->options.outline ? &scene->outline : NULL, load->diag, &scene->memory, &scene->body, &scene->scene, &scene->result);
+    return read_input(load) &&
+           read_all(scene->input, load->options.outline ? &scene->outline : NULL, load->diag, &scene->memory,
+                    &scene->body, &scene->scene, &scene->result);
 }
 
 void face_report_full(struct diagnostics *diag, const char *name, size_t memory_bytes) {
     diag->frame = NULL; /* what was under way is over */
-    diag_failure(diag, "limit-memory", "%s: takes more memory than there is, or than %zu bytes (the limit `memory_bytes`)", name, memory_bytes);
+    diag_failure(diag, "limit-memory",
+                 "%s: takes more memory than there is, or than %zu bytes (the limit `memory_bytes`)", name,
+                 memory_bytes);
 }
 
 /* Loads with arenas that come back here when they are full. */
@@ -137,8 +148,10 @@ static void keep_for_frames(struct load *load) {
     scene->body.parent = scene->texts.parent = NULL;
     const bool moving = scene->result.frames > 1;
     if (!moving || scene->result.moves) lang_memory_free(&scene->memory);
-    if (!moving) arena_free(&scene->texts);
-    else if (load->text) keep_text(scene);
+    if (!moving)
+        arena_free(&scene->texts);
+    else if (load->text)
+        keep_text(scene);
 }
 
 static struct monge_load_options load_options(const struct monge_load_options *given) {
@@ -162,14 +175,17 @@ static struct monge_scene *run_load(struct load *load) {
     return NULL;
 }
 
-struct monge_scene *monge_load_file(const char *path, const struct monge_load_options *options, struct monge_diagnostics *diag) {
+struct monge_scene *monge_load_file(const char *path, const struct monge_load_options *options,
+                                    struct monge_diagnostics *diag) {
     struct load load = {.options = load_options(options), .diag = &diag->list, .name = path};
     return run_load(&load);
 }
 
-struct monge_scene *monge_load_memory(const char *name, const char *text, size_t size, const struct monge_load_options *options,
+struct monge_scene *monge_load_memory(const char *name, const char *text, size_t size,
+                                      const struct monge_load_options *options,
                                       struct monge_diagnostics *diag) {
-    struct load load = {.options = load_options(options), .diag = &diag->list, .name = name, .text = text, .size = size};
+    struct load load = {
+        .options = load_options(options), .diag = &diag->list, .name = name, .text = text, .size = size};
     return run_load(&load);
 }
 
@@ -210,8 +226,10 @@ static bool make_frame(struct frame_load *next) {
     root->limit = scene->memory_bytes;
     next->arena.parent = scene->texts.parent = root;
     volatile bool good = false;
-    if (setjmp(full) == 0) good = scene->result.moves ? make_all(next) : make_view(next);
-    else face_report_full(next->diag, scene->input.path, scene->memory_bytes);
+    if (setjmp(full) == 0)
+        good = scene->result.moves ? make_all(next) : make_view(next);
+    else
+        face_report_full(next->diag, scene->input.path, scene->memory_bytes);
     root->on_full = NULL;
     scene->texts.parent = NULL;
     if (!good) arena_free(&next->arena);
@@ -262,7 +280,8 @@ size_t monge_scene_primitives(const struct monge_scene *scene) { return scene->s
 static struct accel *scene_accel(struct monge_scene *scene) {
     const struct scene *s = &scene->scene;
     bool *clear = arena_array(&scene->body, s->material_count, sizeof *clear);
-    for (uint32_t i = 0; i < s->material_count; i++) clear[i] = vec3_max_abs(s->materials[i].refraction) > 0.0;
+    for (uint32_t i = 0; i < s->material_count; i++)
+        clear[i] = vec3_max_abs(s->materials[i].refraction) > 0.0;
     return accel_build(&scene->body, &s->primitives, s->geometries, s->geometry_count, clear);
 }
 
@@ -272,19 +291,24 @@ bool monge_scene_prepare(struct monge_scene *scene) {
     scene->built_bytes = scene->body.total;
     const struct arena_mark before = arena_mark(&scene->body);
     scene->body.on_full = &full;
-    if (setjmp(full) == 0) scene->accel = scene_accel(scene);
-    else arena_release(&scene->body, before);
+    if (setjmp(full) == 0)
+        scene->accel = scene_accel(scene);
+    else
+        arena_release(&scene->body, before);
     scene->body.on_full = NULL;
     return scene->accel != NULL;
 }
 
 void monge_scene_examine(struct monge_scene *scene, struct monge_diagnostics *diag) {
-    enum { MANY = 1 << 18 }; /* primitives: a hierarchy for the question alone would take longer than the load */
+    enum {
+        MANY = 1 << 18
+    }; /* primitives: a hierarchy for the question alone would take longer than the load */
     if (!scene->accel && scene->scene.primitives.count > MANY) return;
     jmp_buf full;
     struct arena scratch = {.on_full = &full};
     if (!monge_scene_prepare(scene)) return;
-    if (setjmp(full) == 0) examine_scene(&scene->scene, scene->accel, scene->result.frames > 0, &scratch, &diag->list);
+    if (setjmp(full) == 0)
+        examine_scene(&scene->scene, scene->accel, scene->result.frames > 0, &scratch, &diag->list);
     arena_free(&scratch);
 }
 
@@ -299,7 +323,8 @@ bool monge_scene_info(struct monge_scene *scene, enum monge_format format, FILE 
     struct info info = info_count(&scene->scene, &scratch);
     info.scene_bytes = scene->built_bytes;
     info.accel_bytes = scene->body.total - scene->built_bytes;
-    (format == MONGE_FORMAT_TEXT ? info_print : info_write_json)(&info, &scene->scene, scene->accel, scene->outline, out);
+    (format == MONGE_FORMAT_TEXT ? info_print : info_write_json)(&info, &scene->scene, scene->accel,
+                                                                 scene->outline, out);
     arena_free(&scratch);
     return true;
 }

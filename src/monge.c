@@ -15,7 +15,9 @@ const char *monge_version(void) { return MONGE_VERSION; }
 
 /* ---- Diagnostics ---- */
 
-struct monge_diagnostics *monge_diagnostics_new(void) { return calloc(1, sizeof(struct monge_diagnostics)); }
+struct monge_diagnostics *monge_diagnostics_new(void) {
+    return calloc(1, sizeof(struct monge_diagnostics));
+}
 
 void monge_diagnostics_free(struct monge_diagnostics *diag) {
     if (diag) diag_free(&diag->list);
@@ -25,8 +27,12 @@ void monge_diagnostics_free(struct monge_diagnostics *diag) {
 unsigned monge_diagnostics_errors(const struct monge_diagnostics *diag) { return diag->list.errors; }
 unsigned monge_diagnostics_warnings(const struct monge_diagnostics *diag) { return diag->list.warnings; }
 unsigned monge_diagnostics_failures(const struct monge_diagnostics *diag) { return diag->list.failures; }
-void monge_diagnostics_print(const struct monge_diagnostics *diag, FILE *out) { diag_print(&diag->list, out); }
-void monge_diagnostics_print_new(struct monge_diagnostics *diag, FILE *out) { diag_print_new(&diag->list, out); }
+void monge_diagnostics_print(const struct monge_diagnostics *diag, FILE *out) {
+    diag_print(&diag->list, out);
+}
+void monge_diagnostics_print_new(struct monge_diagnostics *diag, FILE *out) {
+    diag_print_new(&diag->list, out);
+}
 
 void monge_diagnostics_write(const struct monge_diagnostics *diag, enum monge_format format, FILE *out) {
     switch (format) {
@@ -37,7 +43,9 @@ void monge_diagnostics_write(const struct monge_diagnostics *diag, enum monge_fo
 }
 
 const char *monge_code(size_t index) { return index < stories.count ? stories.first[index].code : NULL; }
-const char *monge_code_summary(size_t index) { return index < stories.count ? stories.first[index].summary : NULL; }
+const char *monge_code_summary(size_t index) {
+    return index < stories.count ? stories.first[index].summary : NULL;
+}
 
 bool monge_explain(const char *code, FILE *out) {
     const struct diag_story *story = diag_find_story(stories, code);
@@ -49,7 +57,9 @@ void monge_write_json_string(const char *text, FILE *out) { json_string(text, ou
 
 /* ---- Settings ---- */
 
-struct monge_settings monge_scene_settings(const struct monge_scene *scene) { return scene->scene.settings; }
+struct monge_settings monge_scene_settings(const struct monge_scene *scene) {
+    return scene->scene.settings;
+}
 
 /* ---- Rendering ---- */
 
@@ -60,8 +70,8 @@ static double seconds(void) {
 }
 
 static bool region_inside(const struct monge_region *r, const struct monge_settings *s) {
-    return r->width >= 1 && r->height >= 1 && r->x < s->width && r->y < s->height && r->width <= s->width - r->x &&
-           r->height <= s->height - r->y;
+    return r->width >= 1 && r->height >= 1 && r->x < s->width && r->y < s->height &&
+           r->width <= s->width - r->x && r->height <= s->height - r->y;
 }
 
 /* Of all that can change a pixel, and nothing else. */
@@ -76,7 +86,8 @@ static struct hash fingerprint(const struct scene *scene, const struct monge_set
 }
 
 struct monge_film *monge_render(struct monge_scene *scene, const struct monge_settings *settings,
-                                const struct monge_region *region, const struct monge_job *job, struct monge_stats *stats) {
+                                const struct monge_region *region, const struct monge_job *job,
+                                struct monge_stats *stats) {
     const struct monge_job no_job = {0};
     const struct monge_region whole = {0, 0, settings->width, settings->height};
     struct monge_stats no_stats;

@@ -53,7 +53,8 @@ struct monge_diagnostics *monge_diagnostics_new(void); /* NULL: no memory */
 void monge_diagnostics_free(struct monge_diagnostics *diag);
 unsigned monge_diagnostics_errors(const struct monge_diagnostics *diag);   /* in scenes, so far */
 unsigned monge_diagnostics_warnings(const struct monge_diagnostics *diag); /* in scenes, so far */
-unsigned monge_diagnostics_failures(const struct monge_diagnostics *diag); /* of the system, so far: files, memory */
+unsigned
+monge_diagnostics_failures(const struct monge_diagnostics *diag); /* of the system, so far: files, memory */
 
 /* All so far as text for people, `file:line:col: error[code]: ...` and the line with a caret; by place. */
 void monge_diagnostics_print(const struct monge_diagnostics *diag, FILE *out);
@@ -115,7 +116,8 @@ struct monge_scene *monge_load_file(const char *path, const struct monge_load_op
 /* The same from memory: `size` bytes of UTF-8 YAML, free to go when this returns; `name` stands for
  * the file in messages, and what the scene includes is found from it. */
 struct monge_scene *monge_load_memory(const char *name, const char *text, size_t size,
-                                      const struct monge_load_options *options, struct monge_diagnostics *diag);
+                                      const struct monge_load_options *options,
+                                      struct monge_diagnostics *diag);
 
 /* The frames of the scene's animation; 0: it has none. */
 unsigned monge_scene_frames(const struct monge_scene *scene);
@@ -151,7 +153,8 @@ bool monge_scene_info(struct monge_scene *scene, enum monge_format format, FILE 
  * language; "-" is standard input and output. A regular file appears complete under its name or not
  * at all, and nothing is written when the scene is wrong. What the language cannot say is in diag as
  * warnings. limits may be NULL. False: diag says why, monge_diagnostics_failures which of the two. */
-bool monge_import(const char *path, const char *out_path, const struct monge_limits *limits, struct monge_diagnostics *diag);
+bool monge_import(const char *path, const char *out_path, const struct monge_limits *limits,
+                  struct monge_diagnostics *diag);
 
 /* ---- Formatting: the text of a scene in the canonical style ---- */
 
@@ -163,7 +166,8 @@ struct monge_text {
 void monge_text_free(struct monge_text *text);
 
 /* Reads all bytes of a file; "-" is standard input. False, a failure in diag, when it cannot be read. */
-bool monge_text_read(const char *path, const struct monge_limits *limits, struct monge_text *text, struct monge_diagnostics *diag);
+bool monge_text_read(const char *path, const struct monge_limits *limits, struct monge_text *text,
+                     struct monge_diagnostics *diag);
 
 /* Writes a file, which appears complete under its name or stays as it was, with its permissions; symbolic
  * links are followed; "-" is standard output. False, a failure in diag, when it cannot be written. */
@@ -172,8 +176,8 @@ bool monge_text_write(const char *path, const struct monge_text *text, struct mo
 /* Lays a scene out in the canonical style: the same values, the same comments in the same order. The
  * scene must be YAML, but may be wrong otherwise. To format the result changes nothing. False, with the
  * reason in diag, when it is not YAML. *formatted is made by the function, for the caller to free. */
-bool monge_format(const char *name, const struct monge_text *text, const struct monge_limits *limits, struct monge_text *formatted,
-                  struct monge_diagnostics *diag);
+bool monge_format(const char *name, const struct monge_text *text, const struct monge_limits *limits,
+                  struct monge_text *formatted, struct monge_diagnostics *diag);
 
 /* ---- Settings: what an author writes in the file and a user may override ---- */
 
@@ -213,12 +217,19 @@ struct monge_region {
     uint32_t x, y, width, height;
 };
 
-enum monge_ray { MONGE_RAY_CAMERA, MONGE_RAY_SHADOW, MONGE_RAY_REFLECTION, MONGE_RAY_REFRACTION, MONGE_RAY_KINDS };
+enum monge_ray {
+    MONGE_RAY_CAMERA,
+    MONGE_RAY_SHADOW,
+    MONGE_RAY_REFLECTION,
+    MONGE_RAY_REFRACTION,
+    MONGE_RAY_KINDS
+};
 
 /* How to render: nothing in it changes a pixel. */
 struct monge_job {
-    unsigned threads;                                              /* 0: one for each processor */
-    void (*progress)(void *context, uint64_t done, uint64_t total); /* pixels; from any one thread at a time; may be NULL */
+    unsigned threads; /* 0: one for each processor */
+    void (*progress)(void *context, uint64_t done,
+                     uint64_t total); /* pixels; from any one thread at a time; may be NULL */
     void *context;
     const atomic_bool *cancel; /* set it to stop early; may be NULL */
 };

@@ -17,19 +17,21 @@ static bool write_text(const char *text, const char *path, struct diagnostics *d
         fputs(text, file.stream);
         if (replace_commit(&file)) return true;
     }
-    diag_failure(diag, "cannot-write", "cannot write %s: %s", strcmp(path, "-") == 0 ? "standard output" : path, strerror(errno));
+    diag_failure(diag, "cannot-write", "cannot write %s: %s",
+                 strcmp(path, "-") == 0 ? "standard output" : path, strerror(errno));
     return false;
 }
 
-static bool import_text(struct arena *arena, const char *path, const char *out_path, const struct monge_limits *limits,
-                        struct diagnostics *diag) {
+static bool import_text(struct arena *arena, const char *path, const char *out_path,
+                        const struct monge_limits *limits, struct diagnostics *diag) {
     const struct lang_limits within = face_lang_limits(limits);
     const struct source *source = file_read(arena, diag, path, limits->file_bytes);
     const char *text = source ? lang_import(arena, diag, source, &within) : NULL;
     return text && write_text(text, out_path, diag);
 }
 
-bool monge_import(const char *path, const char *out_path, const struct monge_limits *given, struct monge_diagnostics *diag) {
+bool monge_import(const char *path, const char *out_path, const struct monge_limits *given,
+                  struct monge_diagnostics *diag) {
     const struct monge_limits limits = face_limits(given);
     jmp_buf full;
     struct arena arena = {.limit = limits.memory_bytes, .on_full = &full};
@@ -51,11 +53,13 @@ void monge_text_free(struct monge_text *text) {
 }
 
 /* Reads `path`, or formats `given` where there is no path; the result is in the arena, NULL reported. */
-static const char *read_or_format(struct arena *arena, struct diagnostics *diag, const struct monge_limits *limits, const char *path,
-                                  const char *name, const struct monge_text *given, size_t *size) {
+static const char *read_or_format(struct arena *arena, struct diagnostics *diag,
+                                  const struct monge_limits *limits, const char *path, const char *name,
+                                  const struct monge_text *given, size_t *size) {
     if (!path) {
         const struct lang_limits within = face_lang_limits(limits);
-        return format_text(arena, diag, file_from_memory(arena, name, given->bytes, given->size), &within, size);
+        return format_text(arena, diag, file_from_memory(arena, name, given->bytes, given->size), &within,
+                           size);
     }
     const struct source *source = file_read_bytes(arena, diag, path, limits->file_bytes);
     *size = source ? source->size : 0;
@@ -63,8 +67,8 @@ static const char *read_or_format(struct arena *arena, struct diagnostics *diag,
 }
 
 /* The same as a text of its own. */
-static bool make_text(struct diagnostics *diag, const struct monge_limits *given_limits, const char *path, const char *name,
-                      const struct monge_text *given, struct monge_text *made) {
+static bool make_text(struct diagnostics *diag, const struct monge_limits *given_limits, const char *path,
+                      const char *name, const struct monge_text *given, struct monge_text *made) {
     const struct monge_limits limits = face_limits(given_limits);
     struct arena arena = {.limit = limits.memory_bytes};
     jmp_buf full;
@@ -83,12 +87,13 @@ static bool make_text(struct diagnostics *diag, const struct monge_limits *given
     return made->bytes != NULL;
 }
 
-bool monge_text_read(const char *path, const struct monge_limits *limits, struct monge_text *text, struct monge_diagnostics *diag) {
+bool monge_text_read(const char *path, const struct monge_limits *limits, struct monge_text *text,
+                     struct monge_diagnostics *diag) {
     return make_text(&diag->list, limits, path, path, NULL, text);
 }
 
-bool monge_format(const char *name, const struct monge_text *text, const struct monge_limits *limits, struct monge_text *formatted,
-                  struct monge_diagnostics *diag) {
+bool monge_format(const char *name, const struct monge_text *text, const struct monge_limits *limits,
+                  struct monge_text *formatted, struct monge_diagnostics *diag) {
     return make_text(&diag->list, limits, NULL, name, text, formatted);
 }
 

@@ -66,7 +66,8 @@ static struct story read_story(const struct node *code) {
         story.kind = example_kinds[i];
     }
     if (!example || body->count != 4) {
-        diag_error(&diag, code->span, "definition", "a code has severity, summary, story and one of scene, book, commands, sketch");
+        diag_error(&diag, code->span, "definition",
+                   "a code has severity, summary, story and one of scene, book, commands, sketch");
         fail();
     }
     story.severity = need_text(body, "severity");
@@ -99,16 +100,20 @@ static struct story *read_stories(const struct node *root) {
 static void write_string(FILE *out, const char *text) {
     fputs("\n     \"", out);
     for (; *text; text++) {
-        if (*text == '\n') fputs("\\n", out);
-        else if (*text == '\t') fputs("\\t", out);
-        else fprintf(out, strchr("\"\\?", *text) ? "\\%c" : "%c", *text); /* ?? would begin a trigraph */
+        if (*text == '\n')
+            fputs("\\n", out);
+        else if (*text == '\t')
+            fputs("\\t", out);
+        else
+            fprintf(out, strchr("\"\\?", *text) ? "\\%c" : "%c", *text); /* ?? would begin a trigraph */
     }
     fputc('"', out);
 }
 
 static void write_tables(FILE *out, const struct story *all, size_t count) {
     fputs("/* Generated from grammar/diagnostics.yaml. */\n#include \"lang/stories.h\"\n\n"
-          "static const struct diag_story rows[] = {\n", out);
+          "static const struct diag_story rows[] = {\n",
+          out);
     for (const struct story *s = all; s < all + count; s++) {
         const char *texts[] = {s->code, s->severity, s->summary, s->text, s->wrong, s->right};
         for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
@@ -130,9 +135,12 @@ static void reference_example(FILE *out, const char *title, const struct story *
 }
 
 static void write_reference(FILE *out, const struct story *all, size_t count) {
-    fputs("# Errors and warnings\n\nGenerated from `diagnostics.yaml`; `monge explain CODE` prints the same. A code is stable: what it means "
-          "stays, while the words of a message may change. An error is a mistake in a scene, a warning leaves the scene a meaning, "
-          "a failure is of the system or a limit.\n\n| code | | |\n| --- | --- | --- |\n", out);
+    fputs("# Errors and warnings\n\nGenerated from `diagnostics.yaml`; `monge explain CODE` prints the same. "
+          "A code is stable: what it means "
+          "stays, while the words of a message may change. An error is a mistake in a scene, a warning "
+          "leaves the scene a meaning, "
+          "a failure is of the system or a limit.\n\n| code | | |\n| --- | --- | --- |\n",
+          out);
     for (const struct story *s = all; s < all + count; s++)
         fprintf(out, "| [%s](#%s) | %s | %s |\n", s->code, s->code, s->severity, s->summary);
     for (const struct story *s = all; s < all + count; s++) {
@@ -173,9 +181,12 @@ int main(int argc, char **argv) {
         perror(argv[3]);
         return 2;
     }
-    if (strcmp(argv[1], "tables") == 0) write_tables(out, all, root->count);
-    else if (strcmp(argv[1], "reference") == 0) write_reference(out, all, root->count);
-    else write_examples(out, argv[3], all, root->count);
+    if (strcmp(argv[1], "tables") == 0)
+        write_tables(out, all, root->count);
+    else if (strcmp(argv[1], "reference") == 0)
+        write_reference(out, all, root->count);
+    else
+        write_examples(out, argv[3], all, root->count);
     const bool written = fclose(out) == 0;
     if (!written) remove(argv[3]);
     arena_free(&arena);

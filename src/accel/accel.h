@@ -14,13 +14,13 @@ struct accel;
  *   geometries  each holds instances of earlier ones alone, not more than INSTANCE_MAX_DEPTH within each
  *               other; may be NULL where there are no instances
  *   clear       tells of each material whether it lets light through, and is read here alone; NULL: none does */
-struct accel *accel_build(struct arena *arena, const struct primitives *primitives, const struct primitives *geometries,
-                          uint32_t geometry_count, const bool *clear);
+struct accel *accel_build(struct arena *arena, const struct primitives *primitives,
+                          const struct primitives *geometries, uint32_t geometry_count, const bool *clear);
 
 /* One of the primitives that there are with all instances carried out: the numbers of the instances around it,
  * outermost first, each in the set of primitives that it is in, and then its own. */
 struct occurrence {
-    uint32_t depth; /* instances around */
+    uint32_t depth;                          /* instances around */
     uint32_t number[INSTANCE_MAX_DEPTH + 1]; /* number[depth] is the primitive's; none beyond is set */
 };
 
@@ -50,12 +50,12 @@ struct surface accel_surface(const struct accel *accel, ray r, const struct hit 
 /* Calls visit for every clear primitive whose bounds hold the origin of `r`, in an order that is always
  * the same: with its hit, of which the crossing is not set, and the ray in the space that its set is in,
  * with the same t. Thread-safe, allocates nothing. */
-void accel_around(const struct accel *accel, ray r, void (*visit)(void *context, const struct hit *hit, ray in_set),
-                  void *context);
+void accel_around(const struct accel *accel, ray r,
+                  void (*visit)(void *context, const struct hit *hit, ray in_set), void *context);
 
 /* The same for what is not clear. */
-void accel_around_opaque(const struct accel *accel, ray r, void (*visit)(void *context, const struct hit *hit, ray in_set),
-                         void *context);
+void accel_around_opaque(const struct accel *accel, ray r,
+                         void (*visit)(void *context, const struct hit *hit, ray in_set), void *context);
 
 /* A world-space box around all that one of the scene's instances places, by its index; infinite where that is. */
 box3 accel_placed_bounds(const struct accel *accel, uint32_t index);

@@ -10,8 +10,10 @@
 enum { BINS = 16 };
 /* Of a test of two boxes and of one primitive, measured as about that, in tests of a sphere. */
 static const float BOXES_COST = 3.0f;
-static const float TEST_COST[] = {
-    [PRIMITIVE_SPHERE] = 1.0f, [PRIMITIVE_FLAT] = 1.0f, [PRIMITIVE_QUADRIC] = 3.0f, [PRIMITIVE_INSTANCE] = 10.0f};
+static const float TEST_COST[] = {[PRIMITIVE_SPHERE] = 1.0f,
+                                  [PRIMITIVE_FLAT] = 1.0f,
+                                  [PRIMITIVE_QUADRIC] = 3.0f,
+                                  [PRIMITIVE_INSTANCE] = 10.0f};
 
 /* A box that a union of nothing leaves upside down. */
 struct bounds {
@@ -104,7 +106,8 @@ struct choice {
 };
 
 static bool is_chosen(const struct choice *choice, uint32_t material) {
-    const bool clear = material == MATERIAL_INHERITED ? choice->inherited_clear : choice->clear && choice->clear[material];
+    const bool clear =
+        material == MATERIAL_INHERITED ? choice->inherited_clear : choice->clear && choice->clear[material];
     return clear == choice->which;
 }
 
@@ -113,8 +116,10 @@ static void add_unbounded(struct builder *b, primitive_ref ref) { b->unbounded[b
 static void add_bounded(struct builder *b, primitive_ref ref, box3 box) {
     const struct bounds around = bounds_around(box);
     if (box3_is_bounded(box)) b->bounds = box3_union(b->bounds, box);
-    if (bounds_are_finite(&around)) b->items[b->item_count++] = (struct item){around, ref};
-    else add_unbounded(b, ref);
+    if (bounds_are_finite(&around))
+        b->items[b->item_count++] = (struct item){around, ref};
+    else
+        add_unbounded(b, ref);
 }
 
 /* What two boxes around the same have in common. */
@@ -168,8 +173,10 @@ static void collect(struct builder *b, const struct choice *choice) {
     b->bounds = BOX3_EMPTY;
     for (uint32_t i = 0; i < primitives->count; i++) {
         const struct primitive_info *info = &primitives->info[i];
-        if (primitive_ref_kind(info->ref) == PRIMITIVE_INSTANCE) collect_instance(b, choice, info->ref);
-        else if (is_chosen(choice, info->material)) add_bounded(b, info->ref, shape_bounds(primitives, info->ref));
+        if (primitive_ref_kind(info->ref) == PRIMITIVE_INSTANCE)
+            collect_instance(b, choice, info->ref);
+        else if (is_chosen(choice, info->material))
+            add_bounded(b, info->ref, shape_bounds(primitives, info->ref));
     }
 }
 
@@ -444,7 +451,8 @@ static void survey(struct build *build, uint32_t index) {
     const struct primitives *p = &build->geometries[index];
     struct geometry *g = &build->known[index];
     for (uint32_t i = 0; i < p->count; i++)
-        if (primitive_ref_kind(p->info[i].ref) != PRIMITIVE_INSTANCE) g->inherits |= p->info[i].material == MATERIAL_INHERITED;
+        if (primitive_ref_kind(p->info[i].ref) != PRIMITIVE_INSTANCE)
+            g->inherits |= p->info[i].material == MATERIAL_INHERITED;
     for (uint32_t i = 0; i < p->instance_count; i++) {
         assert(p->instances[i].geometry < index);
         const struct geometry *inner = &build->known[p->instances[i].geometry];
@@ -456,7 +464,8 @@ static void survey(struct build *build, uint32_t index) {
 
 static void mark_needed(struct build *build, const struct primitives *p, bool inherited_clear) {
     for (uint32_t i = 0; i < p->instance_count; i++)
-        build->known[p->instances[i].geometry].needed[variant_of(build, &p->instances[i], inherited_clear)] = true;
+        build->known[p->instances[i].geometry].needed[variant_of(build, &p->instances[i], inherited_clear)] =
+            true;
 }
 
 static struct accel *build_set(const struct build *build, const struct primitives *p, bool inherited_clear) {
@@ -464,14 +473,15 @@ static struct accel *build_set(const struct build *build, const struct primitive
     accel->primitives = p;
     accel->placed = arena_array(build->arena, p->instance_count, sizeof *accel->placed);
     for (uint32_t i = 0; i < p->instance_count; i++)
-        accel->placed[i] = build->known[p->instances[i].geometry].built[variant_of(build, &p->instances[i], inherited_clear)];
+        accel->placed[i] = build->known[p->instances[i].geometry]
+                               .built[variant_of(build, &p->instances[i], inherited_clear)];
     accel->opaque = bvh_build(build->arena, &(struct choice){accel, build->clear, inherited_clear, false});
     accel->clear = bvh_build(build->arena, &(struct choice){accel, build->clear, inherited_clear, true});
     return accel;
 }
 
-struct accel *accel_build(struct arena *arena, const struct primitives *primitives, const struct primitives *geometries,
-                          uint32_t geometry_count, const bool *clear) {
+struct accel *accel_build(struct arena *arena, const struct primitives *primitives,
+                          const struct primitives *geometries, uint32_t geometry_count, const bool *clear) {
     struct geometry *known = arena_array(arena, geometry_count, sizeof *known);
     struct build build = {arena, geometries, known, clear};
     for (uint32_t i = 0; i < geometry_count; i++) survey(&build, i);
@@ -481,8 +491,11 @@ struct accel *accel_build(struct arena *arena, const struct primitives *primitiv
             if (known[i].needed[variant]) mark_needed(&build, &geometries[i], variant);
     for (uint32_t i = 0; i < geometry_count; i++)
         for (int variant = 0; variant < 2; variant++)
-            if (known[i].needed[variant]) known[i].built[variant] = build_set(&build, &geometries[i], variant);
+            if (known[i].needed[variant])
+                known[i].built[variant] = build_set(&build, &geometries[i], variant);
     return build_set(&build, primitives, false);
 }
 
-box3 accel_bounds(const struct accel *accel) { return box3_union(accel->opaque->bounds, accel->clear->bounds); }
+box3 accel_bounds(const struct accel *accel) {
+    return box3_union(accel->opaque->bounds, accel->clear->bounds);
+}

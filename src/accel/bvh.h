@@ -26,7 +26,7 @@ struct bvh_node {
     float bounds[6]; /* min x y z, max x y z; in the space of the primitives */
     uint32_t first;  /* of a leaf: into refs; else the first child, and the second comes after it */
     uint16_t count;  /* of a leaf: its primitives; else 0 */
-    uint16_t axis;   /* along which the first child comes before the second; of a leaf: LEAF_OF_SHAPES or not */
+    uint16_t axis; /* along which the first child comes before the second; of a leaf: LEAF_OF_SHAPES or not */
 };
 
 struct bvh {

@@ -12,20 +12,20 @@ struct stack {
 struct around {
     void (*visit)(void *context, const struct hit *hit, ray in_set);
     void *context;
-    bool clear; /* which of the two trees */
+    bool clear;     /* which of the two trees */
     struct hit hit; /* being made: `which` leads to the set that the search is in */
 };
 
 static bool node_holds(const struct bvh_node *node, vec3 p) {
     const float *b = node->bounds;
-    return (double)b[0] <= p.x && p.x <= (double)b[3] && (double)b[1] <= p.y && p.y <= (double)b[4] && (double)b[2] <= p.z &&
-           p.z <= (double)b[5];
+    return (double)b[0] <= p.x && p.x <= (double)b[3] && (double)b[1] <= p.y && p.y <= (double)b[4] &&
+           (double)b[2] <= p.z && p.z <= (double)b[5];
 }
 
 static void around_set(struct around *a, const struct accel *accel, ray r, uint32_t inherited);
 
-static void around_run(struct around *a, const struct accel *accel, ray r, uint32_t inherited, const primitive_ref *refs,
-                       uint32_t count) {
+static void around_run(struct around *a, const struct accel *accel, ray r, uint32_t inherited,
+                       const primitive_ref *refs, uint32_t count) {
     const struct primitives *p = accel->primitives;
     struct occurrence *which = &a->hit.which;
     for (uint32_t i = 0; i < count; i++) {
@@ -41,7 +41,8 @@ static void around_run(struct around *a, const struct accel *accel, ray r, uint3
         }
         a->hit.set = p;
         a->hit.ref = refs[i];
-        a->hit.material = p->info[number].material == MATERIAL_INHERITED ? inherited : p->info[number].material;
+        a->hit.material =
+            p->info[number].material == MATERIAL_INHERITED ? inherited : p->info[number].material;
         a->visit(a->context, &a->hit, r);
     }
 }
@@ -64,14 +65,14 @@ static void around_set(struct around *a, const struct accel *accel, ray r, uint3
     }
 }
 
-void accel_around(const struct accel *accel, ray r, void (*visit)(void *context, const struct hit *hit, ray in_set),
-                  void *context) {
+void accel_around(const struct accel *accel, ray r,
+                  void (*visit)(void *context, const struct hit *hit, ray in_set), void *context) {
     struct around a = {.visit = visit, .context = context, .clear = true};
     around_set(&a, accel, r, MATERIAL_INHERITED);
 }
 
-void accel_around_opaque(const struct accel *accel, ray r, void (*visit)(void *context, const struct hit *hit, ray in_set),
-                         void *context) {
+void accel_around_opaque(const struct accel *accel, ray r,
+                         void (*visit)(void *context, const struct hit *hit, ray in_set), void *context) {
     struct around a = {.visit = visit, .context = context, .clear = false};
     around_set(&a, accel, r, MATERIAL_INHERITED);
 }
@@ -103,13 +104,15 @@ struct measure {
 };
 
 static double box_reach(const struct measure *m, box3 b) {
-    return m->offset + m->along.x * (m->along.x > 0.0 ? b.max.x : b.min.x) + m->along.y * (m->along.y > 0.0 ? b.max.y : b.min.y) +
+    return m->offset + m->along.x * (m->along.x > 0.0 ? b.max.x : b.min.x) +
+           m->along.y * (m->along.y > 0.0 ? b.max.y : b.min.y) +
            m->along.z * (m->along.z > 0.0 ? b.max.z : b.min.z);
 }
 
 static double node_reach(const struct measure *m, const struct bvh_node *node) {
     const float *b = node->bounds;
-    return box_reach(m, (box3){{(double)b[0], (double)b[1], (double)b[2]}, {(double)b[3], (double)b[4], (double)b[5]}});
+    return box_reach(
+        m, (box3){{(double)b[0], (double)b[1], (double)b[2]}, {(double)b[3], (double)b[4], (double)b[5]}});
 }
 
 /* Whether to look into a box that reaches so far. */
@@ -122,16 +125,17 @@ static bool worth_it(struct reach *reach, double most) {
 
 static void reach_set(struct reach *reach, const struct accel *accel, const struct measure *m);
 
-static void reach_run(struct reach *reach, const struct accel *accel, const struct measure *m, const primitive_ref *refs,
-                      uint32_t count) {
+static void reach_run(struct reach *reach, const struct accel *accel, const struct measure *m,
+                      const primitive_ref *refs, uint32_t count) {
     const struct primitives *p = accel->primitives;
     for (uint32_t i = 0; i < count; i++) {
         if (primitive_ref_kind(refs[i]) == PRIMITIVE_INSTANCE) {
             const affine *map = &p->instances[primitive_ref_index(refs[i])].world_from_object;
             const struct accel *placed = accel->placed[primitive_ref_index(refs[i])];
             const vec3 x = affine_column(*map, 0), y = affine_column(*map, 1), z = affine_column(*map, 2);
-            const struct measure inner = {{vec3_dot(x, m->along), vec3_dot(y, m->along), vec3_dot(z, m->along)},
-                                          m->offset + vec3_dot(affine_column(*map, 3), m->along)};
+            const struct measure inner = {
+                {vec3_dot(x, m->along), vec3_dot(y, m->along), vec3_dot(z, m->along)},
+                m->offset + vec3_dot(affine_column(*map, 3), m->along)};
             reach_set(reach, placed, &inner);
         } else {
             const double most = m->offset + shape_support(p, refs[i], m->along);
@@ -142,7 +146,8 @@ static void reach_run(struct reach *reach, const struct accel *accel, const stru
 
 /* The part that reaches further comes first: then there is little else to look into. Nothing bounded
  * reaches beyond `limit`; the boxes of nodes do, by their margin. */
-static void reach_tree(struct reach *reach, const struct accel *accel, const struct bvh *bvh, const struct measure *m, double limit) {
+static void reach_tree(struct reach *reach, const struct accel *accel, const struct bvh *bvh,
+                       const struct measure *m, double limit) {
     reach_run(reach, accel, m, bvh->unbounded, bvh->unbounded_count);
     if (!bvh->node_count) return;
     struct stack stack = {.depth = 1}; /* the root */
@@ -153,7 +158,8 @@ static void reach_tree(struct reach *reach, const struct accel *accel, const str
                 reach_run(reach, accel, m, bvh->refs + node->first, node->count);
                 break;
             }
-            const bool second = node_reach(m, &bvh->nodes[node->first + 1]) > node_reach(m, &bvh->nodes[node->first]);
+            const bool second =
+                node_reach(m, &bvh->nodes[node->first + 1]) > node_reach(m, &bvh->nodes[node->first]);
             stack.node[stack.depth++] = node->first + !second;
             node = &bvh->nodes[node->first + second];
         }
@@ -191,7 +197,9 @@ double accel_support(const struct accel *accel, vec3 direction) {
 box3 accel_extent(const struct accel *accel) {
     const box3 bounds = accel_bounds(accel);
     if (!accel->primitives->instance_count || box3_is_empty(bounds)) return bounds;
-    const vec3 min = {-accel_support(accel, (vec3){-1, 0, 0}), -accel_support(accel, (vec3){0, -1, 0}), -accel_support(accel, (vec3){0, 0, -1})};
-    const vec3 max = {accel_support(accel, (vec3){1, 0, 0}), accel_support(accel, (vec3){0, 1, 0}), accel_support(accel, (vec3){0, 0, 1})};
+    const vec3 min = {-accel_support(accel, (vec3){-1, 0, 0}), -accel_support(accel, (vec3){0, -1, 0}),
+                      -accel_support(accel, (vec3){0, 0, -1})};
+    const vec3 max = {accel_support(accel, (vec3){1, 0, 0}), accel_support(accel, (vec3){0, 1, 0}),
+                      accel_support(accel, (vec3){0, 0, 1})};
     return (box3){min, max};
 }

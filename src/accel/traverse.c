@@ -16,7 +16,7 @@ struct search {
     double t_min;
     bool clear; /* which trees are searched */
     struct crossing best;
-    struct occurrence which; /* of the best; the number UINT32_MAX: none yet */
+    struct occurrence which;           /* of the best; the number UINT32_MAX: none yet */
     uint32_t path[INSTANCE_MAX_DEPTH]; /* numbers of the instances that the search is in, outermost first */
 };
 
@@ -70,7 +70,8 @@ static bool comes_first(const struct search *s, const struct level *level, uint3
     return number < s->which.number[level->depth];
 }
 
-static inline void take(struct search *s, const struct level *level, uint32_t number, struct crossing crossing) {
+static inline void take(struct search *s, const struct level *level, uint32_t number,
+                        struct crossing crossing) {
     s->best = crossing;
     s->which.depth = level->depth;
     for (uint32_t i = 0; i < level->depth; i++) s->which.number[i] = s->path[i];
@@ -78,7 +79,8 @@ static inline void take(struct search *s, const struct level *level, uint32_t nu
 }
 
 /* Tests a run of shapes; true ends an any-hit search, whose end is left out of its range. */
-static inline bool search_run(struct search *s, const struct level *level, const primitive_ref *refs, uint32_t count, bool any) {
+static inline bool search_run(struct search *s, const struct level *level, const primitive_ref *refs,
+                              uint32_t count, bool any) {
     const struct primitives *primitives = level->accel->primitives;
     for (uint32_t i = 0; i < count; i++) {
         struct crossing crossing;
@@ -96,10 +98,12 @@ static inline bool search_run(struct search *s, const struct level *level, const
 static bool search_instance(struct search *s, const struct level *around, uint32_t index, bool any);
 
 /* The same of a run that may have instances in it. */
-static bool search_mixed_run(struct search *s, const struct level *level, const primitive_ref *refs, uint32_t count, bool any) {
+static bool search_mixed_run(struct search *s, const struct level *level, const primitive_ref *refs,
+                             uint32_t count, bool any) {
     for (uint32_t i = 0; i < count; i++) {
         const bool instance = primitive_ref_kind(refs[i]) == PRIMITIVE_INSTANCE;
-        if (instance ? search_instance(s, level, primitive_ref_index(refs[i]), any) : search_run(s, level, refs + i, 1, any))
+        if (instance ? search_instance(s, level, primitive_ref_index(refs[i]), any)
+                     : search_run(s, level, refs + i, 1, any))
             return true;
     }
     return false;
@@ -116,8 +120,9 @@ struct stack {
 
 /* The child to go to first, the other one on the stack if it is met too; NULL where none is. A box
  * that begins just at the best t is met: it may hold an equal hit of a lower number. */
-static inline const struct bvh_node *descend(const struct bvh *bvh, const struct bvh_node *node, const struct box_ray *boxes,
-                                             const struct search *s, struct stack *stack) {
+static inline const struct bvh_node *descend(const struct bvh *bvh, const struct bvh_node *node,
+                                             const struct box_ray *boxes, const struct search *s,
+                                             struct stack *stack) {
     const bool down = boxes->near_plane[node->axis] >= 3;
     const uint32_t near = node->first + down, far = node->first + !down;
     double near_enter, far_enter;
@@ -140,7 +145,8 @@ static inline const struct bvh_node *pop(const struct bvh *bvh, struct stack *st
 /* True when an any-hit search has found one; else s->best is the nearest. */
 static inline bool search_tree(struct search *s, const struct level *level, bool any) {
     const struct bvh *bvh = accel_tree(level->accel, s->clear);
-    if (bvh->unbounded_count && search_mixed_run(s, level, bvh->unbounded, bvh->unbounded_count, any)) return true;
+    if (bvh->unbounded_count && search_mixed_run(s, level, bvh->unbounded, bvh->unbounded_count, any))
+        return true;
     if (!bvh->node_count) return false;
     struct stack stack;
     stack.depth = 0;
@@ -150,8 +156,9 @@ static inline bool search_tree(struct search *s, const struct level *level, bool
         const struct bvh_node *child = NULL;
         if (!node->count)
             child = descend(bvh, node, &level->boxes, s, &stack);
-        else if (node->axis == LEAF_WITH_INSTANCES ? search_mixed_run(s, level, bvh->refs + node->first, node->count, any)
-                                                   : search_run(s, level, bvh->refs + node->first, node->count, any))
+        else if (node->axis == LEAF_WITH_INSTANCES
+                     ? search_mixed_run(s, level, bvh->refs + node->first, node->count, any)
+                     : search_run(s, level, bvh->refs + node->first, node->count, any))
             return true;
         node = child ? child : pop(bvh, &stack, s->best.t);
     }

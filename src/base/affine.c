@@ -53,7 +53,8 @@ bool affine_invert(affine map, affine *inverse) {
 
     affine out;
     for (int i = 0; i < 3; i++) {
-        const vec3 row = vec3_scale(vec3_cross(axis[(i + 1) % 3], axis[(i + 2) % 3]), 1.0 / (det * length[i]));
+        const vec3 row =
+            vec3_scale(vec3_cross(axis[(i + 1) % 3], axis[(i + 2) % 3]), 1.0 / (det * length[i]));
         out.m[i][0] = row.x;
         out.m[i][1] = row.y;
         out.m[i][2] = row.z;

@@ -17,7 +17,9 @@ extern const affine AFFINE_IDENTITY;
 
 affine affine_translate(vec3 by);
 affine affine_scale(vec3 by);
-affine affine_rotate(vec3 axis, double angle_deg); /* counter-clockwise seen against `axis`, which need not be unit but not null */
+affine affine_rotate(
+    vec3 axis,
+    double angle_deg); /* counter-clockwise seen against `axis`, which need not be unit but not null */
 affine affine_columns(vec3 x, vec3 y, vec3 z, vec3 origin); /* takes the axes to x, y, z and 0 to origin */
 
 /* The map that applies `first`, then `then`: then * first. */
@@ -68,7 +70,8 @@ static inline vec3 affine_magnitude(const affine *a, vec3 p) {
     const vec3 q = vec3_abs(p);
     return (vec3){fabs(a->m[0][0]) * q.x + fabs(a->m[0][1]) * q.y + fabs(a->m[0][2]) * q.z + fabs(a->m[0][3]),
                   fabs(a->m[1][0]) * q.x + fabs(a->m[1][1]) * q.y + fabs(a->m[1][2]) * q.z + fabs(a->m[1][3]),
-                  fabs(a->m[2][0]) * q.x + fabs(a->m[2][1]) * q.y + fabs(a->m[2][2]) * q.z + fabs(a->m[2][3])};
+                  fabs(a->m[2][0]) * q.x + fabs(a->m[2][1]) * q.y + fabs(a->m[2][2]) * q.z +
+                      fabs(a->m[2][3])};
 }
 
 #endif

@@ -22,8 +22,9 @@ struct arena {
 };
 
 /* An empty arena is a zeroed struct arena, with limit and on_full as wanted. */
-void *arena_alloc(struct arena *arena, size_t size);             /* zeroed, aligned for any type */
-void *arena_array(struct arena *arena, size_t count, size_t size); /* the same; count * size may not overflow */
+void *arena_alloc(struct arena *arena, size_t size); /* zeroed, aligned for any type */
+void *arena_array(struct arena *arena, size_t count,
+                  size_t size); /* the same; count * size may not overflow */
 /* `array` of `from` bytes with room for `to`, which is more; what it had stays, what is new is not zeroed. A
  * large one takes no room twice. `array` may be NULL. */
 void *arena_resize(struct arena *arena, void *array, size_t from, size_t to);

@@ -9,7 +9,7 @@ typedef struct {
 } box3;
 
 #define BOX3_EMPTY ((box3){{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}})
-#define BOX3_ALL ((box3){{-INFINITY, -INFINITY, -INFINITY}, {INFINITY, INFINITY, INFINITY}})
+#define BOX3_ALL   ((box3){{-INFINITY, -INFINITY, -INFINITY}, {INFINITY, INFINITY, INFINITY}})
 
 static inline double box3_lower(double a, double b) { return b < a ? b : a; }
 static inline double box3_upper(double a, double b) { return b > a ? b : a; }

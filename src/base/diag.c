@@ -27,8 +27,10 @@ static char *copy_safe(char *to, const char *from, size_t size) {
     for (size_t i = 0; i < size;) {
         size_t bytes;
         const bool plain = is_plain(utf8_decode(from + i, size - i, &bytes));
-        if (!plain) *to++ = from[i] == '\t' ? ' ' : '?';
-        else to = (char *)memmove(to, from + i, bytes) + bytes;
+        if (!plain)
+            *to++ = from[i] == '\t' ? ' ' : '?';
+        else
+            to = (char *)memmove(to, from + i, bytes) + bytes;
         for (i += bytes; i < size && ((unsigned char)from[i] & 0xc0) == 0x80;) i++;
     }
     return to;
@@ -79,15 +81,16 @@ static bool place_before(const struct place *a, const struct place *b) {
 }
 
 /* Of what a loop or a template says again with other numbers, the first time is enough. */
-static bool is_said(const struct diagnostics *diag, const struct diagnostic *before, const struct diagnostic *d) {
+static bool is_said(const struct diagnostics *diag, const struct diagnostic *before,
+                    const struct diagnostic *d) {
     return strcmp(before->message, d->message) == 0 || (diag->frame && strcmp(before->code, d->code) == 0);
 }
 
 /* The same, told of the same scene before; NULL: none. */
 static struct diagnostic *find_same(const struct diagnostics *diag, const struct diagnostic *d) {
     for (struct diagnostic *e = diag->first; e; e = e->next)
-        if (e->load >= diag->scene && e->severity == d->severity && same_file(&e->place, &d->place) && e->place.line == d->place.line &&
-            e->place.column == d->place.column && is_said(diag, e, d))
+        if (e->load >= diag->scene && e->severity == d->severity && same_file(&e->place, &d->place) &&
+            e->place.line == d->place.line && e->place.column == d->place.column && is_said(diag, e, d))
             return e;
     return NULL;
 }
@@ -129,7 +132,8 @@ static void count(struct diagnostics *diag, enum severity severity) {
     }
 }
 
-static void append_related(struct diagnostics *diag, struct diagnostic *d, struct span span, const char *text) {
+static void append_related(struct diagnostics *diag, struct diagnostic *d, struct span span,
+                           const char *text) {
     struct related *related = arena_alloc(&diag->arena, sizeof *related);
     related->place = make_place(diag, span);
     related->text = text;
@@ -151,8 +155,8 @@ static void add_frames(struct diagnostics *diag, struct diagnostic *d) {
 }
 
 /* Past the kept ones nothing is copied: a file of a million mistakes is no burden. */
-static struct diagnostic *add(struct diagnostics *diag, enum severity severity, struct span span, const char *code,
-                              const char *format, va_list args) {
+static struct diagnostic *add(struct diagnostics *diag, enum severity severity, struct span span,
+                              const char *code, const char *format, va_list args) {
     if (diag_full(diag) && severity != SEVERITY_FAILURE) {
         count(diag, severity);
         return &diag->beyond;
@@ -177,7 +181,8 @@ static struct diagnostic *add(struct diagnostics *diag, enum severity severity, 
     return d;
 }
 
-struct diagnostic *diag_error(struct diagnostics *diag, struct span span, const char *code, const char *format, ...) {
+struct diagnostic *diag_error(struct diagnostics *diag, struct span span, const char *code,
+                              const char *format, ...) {
     va_list args;
     va_start(args, format);
     struct diagnostic *d = add(diag, SEVERITY_ERROR, span, code, format, args);
@@ -185,7 +190,8 @@ struct diagnostic *diag_error(struct diagnostics *diag, struct span span, const 
     return d;
 }
 
-struct diagnostic *diag_warning(struct diagnostics *diag, struct span span, const char *code, const char *format, ...) {
+struct diagnostic *diag_warning(struct diagnostics *diag, struct span span, const char *code,
+                                const char *format, ...) {
     va_list args;
     va_start(args, format);
     struct diagnostic *d = add(diag, SEVERITY_WARNING, span, code, format, args);
@@ -234,14 +240,18 @@ static void print_place(const struct place *place, const char *help, FILE *out) 
         if (help) fprintf(out, "%*s = %s\n", GUTTER, "", help);
         return;
     }
-    fprintf(out, "%*u | %s\n%*s | %*s^", GUTTER, (unsigned)place->line, place->excerpt, GUTTER, "", (int)place->caret, "");
+    fprintf(out, "%*u | %s\n%*s | %*s^", GUTTER, (unsigned)place->line, place->excerpt, GUTTER, "",
+            (int)place->caret, "");
     for (uint32_t i = 1; i < place->length; i++) fputc('~', out);
     fprintf(out, help ? " %s\n" : "\n", help);
 }
 
-static void print_head(const struct place *place, const char *word, const char *code, const char *message, FILE *out) {
-    if (place->file) fprintf(out, "%s:%u:%u: ", place->file, (unsigned)place->line, (unsigned)place->column);
-    else fputs("monge: ", out);
+static void print_head(const struct place *place, const char *word, const char *code, const char *message,
+                       FILE *out) {
+    if (place->file)
+        fprintf(out, "%s:%u:%u: ", place->file, (unsigned)place->line, (unsigned)place->column);
+    else
+        fputs("monge: ", out);
     fputs(word, out);
     if (code) fprintf(out, "[%s]", code);
     fprintf(out, ": %s\n", message);

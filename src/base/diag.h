@@ -61,13 +61,13 @@ struct diag_frame {
 
 /* A list in the order of places within a file. Starts as a zeroed struct. */
 struct diagnostics {
-    struct arena arena; /* owns all the texts */
+    struct arena arena;             /* owns all the texts */
     const struct diag_frame *frame; /* NULL: nothing is under way */
     struct diagnostic *first;
     unsigned kept;
-    unsigned load, before; /* how many loads have begun; how many were kept when the last scene's did */
-    unsigned scene;        /* the load that the last scene began with */
-    unsigned repeated;     /* counted once more because a scene was loaded again */
+    unsigned load, before;    /* how many loads have begun; how many were kept when the last scene's did */
+    unsigned scene;           /* the load that the last scene began with */
+    unsigned repeated;        /* counted once more because a scene was loaded again */
     struct diagnostic beyond; /* stands for the ones that are not kept */
     unsigned errors, warnings, failures; /* all of them, the ones not kept too */
 };
@@ -81,10 +81,10 @@ void diag_begin_again(struct diagnostics *diag);
 /* `code` is static. Each returns the diagnostic, to add help, a note or related places to; never NULL. The same
  * message of a load at the same place is kept and counted once, as long as there is room to keep it. What
  * they are told of a file may be in any bytes: it comes out as UTF-8 that a terminal can take. */
-struct diagnostic *diag_error(struct diagnostics *diag, struct span span, const char *code, const char *format, ...)
-    __attribute__((format(printf, 4, 5)));
-struct diagnostic *diag_warning(struct diagnostics *diag, struct span span, const char *code, const char *format, ...)
-    __attribute__((format(printf, 4, 5)));
+struct diagnostic *diag_error(struct diagnostics *diag, struct span span, const char *code,
+                              const char *format, ...) __attribute__((format(printf, 4, 5)));
+struct diagnostic *diag_warning(struct diagnostics *diag, struct span span, const char *code,
+                                const char *format, ...) __attribute__((format(printf, 4, 5)));
 struct diagnostic *diag_failure(struct diagnostics *diag, const char *code, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 void diag_help(struct diagnostics *diag, struct diagnostic *d, const char *format, ...)

@@ -3,8 +3,10 @@
 
 /* 0 stands for what there is not. */
 static void write_number(struct json *json, const char *key, uint32_t number) {
-    if (number) json_number(json, key, number);
-    else json_word(json, key, "null");
+    if (number)
+        json_number(json, key, number);
+    else
+        json_word(json, key, "null");
 }
 
 static void write_start(struct json *json, const struct place *place) {

@@ -52,7 +52,8 @@ static void write_rules(struct json *json, const char *key, const struct diagnos
     json_close(json, ']');
 }
 
-static void write_tool(struct json *json, const struct diagnostics *diag, struct diag_stories stories, const char *version) {
+static void write_tool(struct json *json, const struct diagnostics *diag, struct diag_stories stories,
+                       const char *version) {
     json_open(json, "tool", '{');
     json_open(json, "driver", '{');
     json_text(json, "name", "monge");
@@ -70,8 +71,10 @@ static void write_uri(struct json *json, const char *path) {
     json_key(json, "uri");
     fputs(*path == '/' ? "\"file://" : "\"", json->out);
     for (const unsigned char *p = (const unsigned char *)path; *p; p++) {
-        if (*p < 0x80 && (isalnum(*p) || strchr("-._~/", *p))) fputc(*p, json->out);
-        else fprintf(json->out, "%%%02X", *p);
+        if (*p < 0x80 && (isalnum(*p) || strchr("-._~/", *p)))
+            fputc(*p, json->out);
+        else
+            fprintf(json->out, "%%%02X", *p);
     }
     fputc('"', json->out);
 }
@@ -159,10 +162,12 @@ static void write_invocation(struct json *json, const struct diagnostics *diag) 
     json_close(json, ']');
 }
 
-void diag_write_sarif(const struct diagnostics *diag, struct diag_stories stories, const char *version, FILE *out) {
+void diag_write_sarif(const struct diagnostics *diag, struct diag_stories stories, const char *version,
+                      FILE *out) {
     struct json json = {.out = out};
     json_open(&json, NULL, '{');
-    json_text(&json, "$schema", "https://docs.oasis-open.org/sarif/sarif/v2.1.0/os/schemas/sarif-schema-2.1.0.json");
+    json_text(&json, "$schema",
+              "https://docs.oasis-open.org/sarif/sarif/v2.1.0/os/schemas/sarif-schema-2.1.0.json");
     json_text(&json, "version", "2.1.0");
     json_open(&json, "runs", '[');
     json_open(&json, NULL, '{');

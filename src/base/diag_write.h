@@ -31,6 +31,7 @@ void diag_explain(const struct diag_story *story, FILE *out);
 void diag_write_json(const struct diagnostics *diag, FILE *out);
 
 /* SARIF 2.1.0: one run, its rules the codes that occur. Failures are notifications of the tool. */
-void diag_write_sarif(const struct diagnostics *diag, struct diag_stories stories, const char *version, FILE *out);
+void diag_write_sarif(const struct diagnostics *diag, struct diag_stories stories, const char *version,
+                      FILE *out);
 
 #endif

@@ -21,6 +21,7 @@ double elementary_tan_deg(double angle_deg);
 double elementary_asin_deg(double sine);
 double elementary_acos_deg(double cosine);
 double elementary_atan_deg(double tangent);
-double elementary_atan2_deg(double y, double x); /* over -180 up to 180; -0 counts as 0; 0 for a null vector */
+double elementary_atan2_deg(double y,
+                            double x); /* over -180 up to 180; -0 counts as 0; 0 for a null vector */
 
 #endif

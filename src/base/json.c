@@ -7,11 +7,16 @@
 void json_escape(const char *text, size_t size, FILE *out) {
     for (size_t bytes; size > 0; text += bytes, size -= bytes) {
         const uint32_t code = utf8_decode(text, size, &bytes);
-        if (code == UINT32_MAX) fputs("\\ufffd", out);
-        else if (code == '"' || code == '\\') fprintf(out, "\\%c", (int)code);
-        else if (code == '\n') fputs("\\n", out);
-        else if (code < 0x20 || code == 0x7f) fprintf(out, "\\u%04x", (unsigned)code);
-        else fwrite(text, 1, bytes, out);
+        if (code == UINT32_MAX)
+            fputs("\\ufffd", out);
+        else if (code == '"' || code == '\\')
+            fprintf(out, "\\%c", (int)code);
+        else if (code == '\n')
+            fputs("\\n", out);
+        else if (code < 0x20 || code == 0x7f)
+            fprintf(out, "\\u%04x", (unsigned)code);
+        else
+            fwrite(text, 1, bytes, out);
     }
 }
 
@@ -49,8 +54,10 @@ void json_close(struct json *json, char bracket) {
 
 void json_text(struct json *json, const char *key, const char *text) {
     json_key(json, key);
-    if (text) json_string(text, json->out);
-    else fputs("null", json->out);
+    if (text)
+        json_string(text, json->out);
+    else
+        fputs("null", json->out);
 }
 
 void json_number(struct json *json, const char *key, unsigned number) {

@@ -26,7 +26,7 @@ void json_string(const char *text, FILE *out);
 void json_escape(const char *text, size_t size, FILE *out);
 
 /* Each writes a value: of `key` within an object; in a list, or alone, key is NULL. */
-void json_open(struct json *json, const char *key, char bracket); /* '{' or '[' */
+void json_open(struct json *json, const char *key, char bracket);     /* '{' or '[' */
 void json_text(struct json *json, const char *key, const char *text); /* NULL: null */
 void json_number(struct json *json, const char *key, unsigned number);
 void json_word(struct json *json, const char *key, const char *word); /* true, false or null */

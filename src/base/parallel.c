@@ -27,8 +27,10 @@ void parallel_run(unsigned threads, void (*work)(void *context, unsigned thread)
     }
     work(context, 0);
     for (unsigned i = 1; i < threads; i++) {
-        if (tasks[i].started) pthread_join(tasks[i].id, NULL);
-        else work(context, i);
+        if (tasks[i].started)
+            pthread_join(tasks[i].id, NULL);
+        else
+            work(context, i);
     }
 }
 

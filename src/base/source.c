@@ -52,11 +52,13 @@ static size_t skip_blanks(const struct source *source, size_t i, size_t end) {
 }
 
 /* The levels of the line text[begin] .. text[end]. */
-static int line_levels(const struct source *source, uint32_t line, size_t begin, size_t end, struct source_level levels[SOURCE_MAX_LEVELS]) {
+static int line_levels(const struct source *source, uint32_t line, size_t begin, size_t end,
+                       struct source_level levels[SOURCE_MAX_LEVELS]) {
     int count = 0;
     size_t i = skip_blanks(source, begin, end);
     while (i < end && source->text[i] != '#' && count < SOURCE_MAX_LEVELS) {
-        const bool dash = source->text[i] == '-' && (i + 1 == end || source->text[i + 1] == ' ' || source->text[i + 1] == '\t');
+        const bool dash = source->text[i] == '-' &&
+                          (i + 1 == end || source->text[i + 1] == ' ' || source->text[i + 1] == '\t');
         levels[count++] = (struct source_level){line, (uint32_t)(i - begin), dash};
         if (!dash) break;
         i = skip_blanks(source, i + 1, end);
@@ -64,7 +66,8 @@ static int line_levels(const struct source *source, uint32_t line, size_t begin,
     return count;
 }
 
-int source_line_levels(const struct source *source, uint32_t line, struct source_level levels[SOURCE_MAX_LEVELS]) {
+int source_line_levels(const struct source *source, uint32_t line,
+                       struct source_level levels[SOURCE_MAX_LEVELS]) {
     size_t end, begin = source_line(source, line, &end);
     return line_levels(source, line, begin, end, levels);
 }
@@ -74,7 +77,8 @@ static bool ends_level(struct source_level open, struct source_level next) {
     return open.column > next.column || (open.column == next.column && (open.dash || !next.dash));
 }
 
-int source_open_levels(const struct source *source, uint32_t line, struct source_level levels[SOURCE_MAX_LEVELS]) {
+int source_open_levels(const struct source *source, uint32_t line,
+                       struct source_level levels[SOURCE_MAX_LEVELS]) {
     int count = 0;
     size_t begin = 0;
     for (uint32_t n = 0; n < line && begin < source->size; n++) {

@@ -46,10 +46,12 @@ struct source_level {
 enum { SOURCE_MAX_LEVELS = 64 };
 
 /* The levels that one line begins, from the left; 0 of a blank one or a comment. */
-int source_line_levels(const struct source *source, uint32_t line, struct source_level levels[SOURCE_MAX_LEVELS]);
+int source_line_levels(const struct source *source, uint32_t line,
+                       struct source_level levels[SOURCE_MAX_LEVELS]);
 
 /* The levels that lines before `line` leave open, the innermost last, each with the last line that
  * begins there. By indentation alone: a guess where texts or lists go over several lines. */
-int source_open_levels(const struct source *source, uint32_t line, struct source_level levels[SOURCE_MAX_LEVELS]);
+int source_open_levels(const struct source *source, uint32_t line,
+                       struct source_level levels[SOURCE_MAX_LEVELS]);
 
 #endif

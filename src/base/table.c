@@ -13,7 +13,8 @@ static uint64_t hash_name(const char *name) {
 /* The slot that has the name, or the free one where it belongs. */
 static struct table_slot *slot_of(const struct table *table, const char *name) {
     size_t i = (size_t)hash_name(name) & (table->capacity - 1);
-    while (table->slots[i].name && strcmp(table->slots[i].name, name) != 0) i = (i + 1) & (table->capacity - 1);
+    while (table->slots[i].name && strcmp(table->slots[i].name, name) != 0)
+        i = (i + 1) & (table->capacity - 1);
     return &table->slots[i];
 }
 

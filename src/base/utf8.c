@@ -2,7 +2,12 @@
 
 uint32_t utf8_decode(const char *text, size_t left, size_t *bytes) {
     const unsigned char *t = (const unsigned char *)text;
-    const size_t n = t[0] < 0x80 ? 1 : t[0] < 0xc2 ? 0 : t[0] < 0xe0 ? 2 : t[0] < 0xf0 ? 3 : t[0] < 0xf5 ? 4 : 0;
+    const size_t n = t[0] < 0x80   ? 1
+                     : t[0] < 0xc2 ? 0
+                     : t[0] < 0xe0 ? 2
+                     : t[0] < 0xf0 ? 3
+                     : t[0] < 0xf5 ? 4
+                                   : 0;
     static const uint32_t least[] = {0, 0, 0x80, 0x800, 0x10000};
     *bytes = 1;
     if (n == 0 || n > left) return UINT32_MAX;

@@ -30,12 +30,14 @@ static void check_limits(const struct loader *loader, const char *scene, struct 
 }
 
 /* The scene with one combination of the sweep. */
-static enum status check_scene(struct loader *loader, const char *scene, const struct monge_define *defines, bool quiet) {
+static enum status check_scene(struct loader *loader, const char *scene, const struct monge_define *defines,
+                               bool quiet) {
     struct load load = load_scene(loader, scene, defines, 0);
     check_limits(loader, scene, &load);
     load_examine(loader, &load);
     const bool wanted = load.status != STATUS_YES || !quiet;
-    char *with = sweep_describe(&loader->sweep, defines), *title = say_text("%s%s%s", scene, *with ? " with " : "", with);
+    char *with = sweep_describe(&loader->sweep, defines),
+         *title = say_text("%s%s%s", scene, *with ? " with " : "", with);
     if (wanted && loader->report.format == MONGE_FORMAT_TEXT) print_verdict(title, &load);
     free(title);
     free(with);
@@ -49,7 +51,8 @@ static enum status check_scenes(struct loader *loader, const struct arguments *a
     if (!defines) say_error("out of memory");
     for (size_t i = 0; defines && i < args->count * loader->sweep.total; i++) {
         sweep_combination(&loader->sweep, i % loader->sweep.total, defines);
-        const enum status status = check_scene(loader, args->operands[i / loader->sweep.total], defines, args->option[OPTION_QUIET].given);
+        const enum status status = check_scene(loader, args->operands[i / loader->sweep.total], defines,
+                                               args->option[OPTION_QUIET].given);
         if (status > worst) worst = status;
     }
     free(defines);

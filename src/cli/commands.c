@@ -27,18 +27,19 @@
 #define IN_HELP    (1u << COMMAND_HELP)
 #define IN_ALL     ((1u << COMMANDS) - 1)
 
-#define LIMITS_TEXT \
-    "--limit bounds what a scene may take, for files from strangers: file_bytes (of one file: 1G), " \
-    "memory_bytes (of a load: 8G), values (of one file: 100M), nesting (of lists and mappings: 100), " \
-    "recursion (of templates: 100), steps (objects and turns of loops: 100M), objects (shapes: 20M), " \
+#define LIMITS_TEXT                                                                                          \
+    "--limit bounds what a scene may take, for files from strangers: file_bytes (of one file: 1G), "         \
+    "memory_bytes (of a load: 8G), values (of one file: 100M), nesting (of lists and mappings: 100), "       \
+    "recursion (of templates: 100), steps (objects and turns of loops: 100M), objects (shapes: 20M), "       \
     "pixels (of the picture: 268435456). k, M and G are powers of 1000, of bytes powers of 1024."
 
 /* The words of a choice stand in the order of the enum that they become. */
 const struct option_row OPTION_TABLE[OPTIONS] = {
     [OPTION_OUTPUT] = {"output", 'o', VALUE_FILE, IN_RENDER, "FILE|DIR/|PATTERN", 0, 0,
                        "where the picture goes: a file, a folder, a pattern with {name}, or -"},
-    [OPTION_DEFINE] = {"define", 'D', VALUE_PAIR, IN_RENDER | IN_CHECK | IN_INFO, "NAME=VALUE", 0, 0,
-                       "set a parameter of the scene; a list a,b,c or a range 1..9:2 makes a sweep; repeatable"},
+    [OPTION_DEFINE] =
+        {"define", 'D', VALUE_PAIR, IN_RENDER | IN_CHECK | IN_INFO, "NAME=VALUE", 0, 0,
+         "set a parameter of the scene; a list a,b,c or a range 1..9:2 makes a sweep; repeatable"},
     [OPTION_FRAMES] = {"frames", 0, VALUE_FRAMES, IN_RENDER, "N|A-B|A-|all", 1, 1000000,
                        "frames of the animation; with :STEP behind it every so many"},
     [OPTION_IMPORT_OUTPUT] = {"output", 'o', VALUE_FILE, IN_IMPORT, "FILE", 0, 0,
@@ -78,8 +79,7 @@ const struct option_row OPTION_TABLE[OPTIONS] = {
     [OPTION_MAN] = {"man", 0, VALUE_NONE, IN_HELP, NULL, 0, 0, "print the manual page, as roff"},
     [OPTION_COMPLETION] = {"completion", 0, VALUE_CHOICE, IN_HELP, "bash|zsh|fish", 0, 0,
                            "print the completion script of a shell"},
-    [OPTION_HELP] = {"help", 'h', VALUE_NONE, IN_ALL, NULL, 0, 0,
-                     "show this help"},
+    [OPTION_HELP] = {"help", 'h', VALUE_NONE, IN_ALL, NULL, 0, 0, "show this help"},
     [OPTION_VERSION] = {"version", 'V', VALUE_NONE, IN_NONE, NULL, 0, 0, "show the version"},
 };
 
@@ -136,7 +136,8 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                          {"monge render scenes/*.yaml -o pictures/ --size 320x240", "small pictures of many"},
                          {"monge render king.yaml -o 'draft-{name}.png' --shading diffuse --no-shadows",
                           "a quick look, in draft-king.png"},
-                         {"monge render king.yaml -D roughness=0.1,0.2,0.4 -o 'king-{roughness}.png'", "three pictures"},
+                         {"monge render king.yaml -D roughness=0.1,0.2,0.4 -o 'king-{roughness}.png'",
+                          "three pictures"},
                          {"monge render orbit.yaml --frames all -o orbit/", "orbit/orbit-0001.png and so on"},
                          {"generate | monge render - | display", "from a program to a program"}},
             .needs_operand = true,
@@ -157,11 +158,9 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                      "there is not. SARIF 2.1.0: one run; failures, which have no place, are "
                      "notifications of the tool. Lines and columns count from 1, columns in characters, "
                      "an end is the first column behind.",
-                     "With lists of values, as in -D a=1,2, each combination is checked.",
-                     LIMITS_TEXT,
+                     "With lists of values, as in -D a=1,2, each combination is checked.", LIMITS_TEXT,
                      "The scene - is standard input."},
-            .examples = {{"monge check --quiet scenes/*.yaml",
-                          "a step of a build: silent where all is well"},
+            .examples = {{"monge check --quiet scenes/*.yaml", "a step of a build: silent where all is well"},
                          {"monge check --format sarif scenes/*.yaml > monge.sarif",
                           "for what shows SARIF beside the code"}},
             .needs_operand = true,
@@ -172,14 +171,16 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
             .name = "info",
             .operands = "SCENE...",
             .doc = "tell what scenes consist of, without rendering them",
-            .text = {"Reads each scene and prints what has become of it: the picture's size, the camera as it is "
-                     "framed, the lights, the bounds, how many primitives of each kind there are, the materials "
-                     "with their uses, the memory that it takes and what each template costs.",
-                     "Then the scene as a tree, each line with its place in the file. What a loop or a template "
-                     "places many times is one line with a count; of more than 20 members the rest is counted.",
-                     "Primitives are counted as they are kept, those of a template that is placed as a whole once; "
-                     "`placed` is their number with all of that carried out.",
-                     "With --json: one object for each scene, with the same. The scene - is standard input."},
+            .text =
+                {"Reads each scene and prints what has become of it: the picture's size, the camera as it is "
+                 "framed, the lights, the bounds, how many primitives of each kind there are, the materials "
+                 "with their uses, the memory that it takes and what each template costs.",
+                 "Then the scene as a tree, each line with its place in the file. What a loop or a template "
+                 "places many times is one line with a count; of more than 20 members the rest is counted.",
+                 "Primitives are counted as they are kept, those of a template that is placed as a whole "
+                 "once; "
+                 "`placed` is their number with all of that carried out.",
+                 "With --json: one object for each scene, with the same. The scene - is standard input."},
             .examples = {{"monge info king.yaml", "what king.yaml consists of"},
                          {"monge info --json king.yaml | jq .camera", "the camera that it is framed by"}},
             .needs_operand = true,
@@ -227,7 +228,8 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                      "--check nothing is written, and the files that are not formatted are listed on "
                      "standard output. The scene - is standard input, and goes to standard output."},
             .examples = {{"monge fmt scenes/*.yaml", "in place"},
-                         {"monge fmt --check scenes/*.yaml", "a step of a build: 1 where something is not formatted"},
+                         {"monge fmt --check scenes/*.yaml",
+                          "a step of a build: 1 where something is not formatted"},
                          {"monge fmt - < king.yaml | diff king.yaml -", "what it would change"}},
             .needs_operand = true,
             .run = fmt_command,

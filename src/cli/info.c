@@ -6,7 +6,8 @@
 #include "cli/load.h"
 #include "cli/say.h"
 
-static enum status tell(struct loader *loader, const char *path, const struct monge_define *defines, enum monge_format format, bool titled) {
+static enum status tell(struct loader *loader, const char *path, const struct monge_define *defines,
+                        enum monge_format format, bool titled) {
     struct load load = load_scene(loader, path, defines, 0);
     if (load.scene) {
         char *with = sweep_describe(&loader->sweep, defines);

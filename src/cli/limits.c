@@ -31,8 +31,10 @@ static bool unknown_limit(enum command_id command, const char *name) {
         snprintf(all + strlen(all), sizeof all - strlen(all), "%s%s", i > 0 ? ", " : "", rows[i].name);
     }
     const char *best = suggestion_best(&nearest);
-    if (best) say_usage(command, "--limit: no limit `%s`; did you mean `%s`?", name, best);
-    else say_usage(command, "--limit: no limit `%s`; there are %s", name, all);
+    if (best)
+        say_usage(command, "--limit: no limit `%s`; did you mean `%s`?", name, best);
+    else
+        say_usage(command, "--limit: no limit `%s`; there are %s", name, all);
     return false;
 }
 
@@ -62,15 +64,19 @@ static bool read_limit(enum command_id command, const char *text, struct limits 
     int i = 0;
     while (i < ROWS && strcmp(rows[i].name, name) != 0) i++;
     if (i == ROWS) return unknown_limit(command, name);
-    if (read_amount(strchr(text, '=') + 1, &rows[i], (size_t *)((char *)limits + rows[i].offset))) return true;
-    if (rows[i].high == SIZE_MAX) say_usage(command, "--limit %s: expected a whole number from 1, as 200, 5k, 30M or 2G", text);
-    else say_usage(command, "--limit %s: expected a whole number from 1 to %zu", text, rows[i].high);
+    if (read_amount(strchr(text, '=') + 1, &rows[i], (size_t *)((char *)limits + rows[i].offset)))
+        return true;
+    if (rows[i].high == SIZE_MAX)
+        say_usage(command, "--limit %s: expected a whole number from 1, as 200, 5k, 30M or 2G", text);
+    else
+        say_usage(command, "--limit %s: expected a whole number from 1 to %zu", text, rows[i].high);
     return false;
 }
 
 bool limits_read(const struct arguments *args, struct limits *limits) {
     *limits = (struct limits){.pixels = MONGE_MAX_PIXELS};
     for (size_t i = 0; i < args->pair_count; i++)
-        if (args->pairs[i].option == OPTION_LIMIT && !read_limit(args->command, args->pairs[i].text, limits)) return false;
+        if (args->pairs[i].option == OPTION_LIMIT && !read_limit(args->command, args->pairs[i].text, limits))
+            return false;
     return true;
 }

@@ -6,29 +6,39 @@
 
 bool loader_begin(struct loader *loader, const struct arguments *args) {
     *loader = (struct loader){.untrusted = args->option[OPTION_UNTRUSTED].given};
-    return sweep_read(args, &loader->sweep) && limits_read(args, &loader->limits) && report_begin(&loader->report, args);
+    return sweep_read(args, &loader->sweep) && limits_read(args, &loader->limits) &&
+           report_begin(&loader->report, args);
 }
 
 void loader_end(struct loader *loader, FILE *out) {
-    if (out) report_end(&loader->report, out);
-    else monge_diagnostics_free(loader->report.all);
+    if (out)
+        report_end(&loader->report, out);
+    else
+        monge_diagnostics_free(loader->report.all);
     monge_text_free(&loader->input);
     sweep_free(&loader->sweep);
 }
 
 /* Standard input can be read but once. */
-static struct monge_scene *load_input(struct loader *loader, const struct monge_load_options *options, struct monge_diagnostics *diag) {
-    if (!loader->has_input) loader->has_input = monge_text_read("-", &loader->limits.load, &loader->input, diag);
+static struct monge_scene *load_input(struct loader *loader, const struct monge_load_options *options,
+                                      struct monge_diagnostics *diag) {
+    if (!loader->has_input)
+        loader->has_input = monge_text_read("-", &loader->limits.load, &loader->input, diag);
     if (!loader->has_input) return NULL;
     return monge_load_memory("<stdin>", loader->input.bytes, loader->input.size, options, diag);
 }
 
-struct load load_scene(struct loader *loader, const char *path, const struct monge_define *defines, unsigned frame) {
+struct load load_scene(struct loader *loader, const char *path, const struct monge_define *defines,
+                       unsigned frame) {
     struct load load = {.status = STATUS_TROUBLE, .diag = report_open(&loader->report)};
     struct monge_diagnostics *diag = load.diag;
     if (!diag) return load;
-    const struct monge_load_options options = {.limits = loader->limits.load, .defines = defines, .define_count = loader->sweep.count,
-                                               .frame = frame, .untrusted = loader->untrusted, .outline = loader->outline};
+    const struct monge_load_options options = {.limits = loader->limits.load,
+                                               .defines = defines,
+                                               .define_count = loader->sweep.count,
+                                               .frame = frame,
+                                               .untrusted = loader->untrusted,
+                                               .outline = loader->outline};
     const bool again = loader->sweep.total > 1 && strcmp(path, "-") == 0;
     const unsigned errors = monge_diagnostics_errors(diag), warnings = monge_diagnostics_warnings(diag);
     const unsigned failures = monge_diagnostics_failures(diag);
@@ -66,7 +76,7 @@ void load_close(struct loader *loader, struct load *load) {
 
 bool load_allows(const struct loader *loader, const char *path, const struct monge_settings *settings) {
     if ((uint64_t)settings->width * settings->height <= loader->limits.pixels) return true;
-    say_error("%s: a picture of %ux%u has more than %zu pixels (the limit `pixels`)", path, settings->width, settings->height,
-              loader->limits.pixels);
+    say_error("%s: a picture of %ux%u has more than %zu pixels (the limit `pixels`)", path, settings->width,
+              settings->height, loader->limits.pixels);
     return false;
 }

@@ -30,7 +30,8 @@ struct load {
 };
 
 /* Loads a scene with a combination of the sweep, at a frame (0: the first). To be closed. */
-struct load load_scene(struct loader *loader, const char *path, const struct monge_define *defines, unsigned frame);
+struct load load_scene(struct loader *loader, const char *path, const struct monge_define *defines,
+                       unsigned frame);
 
 /* Moves it to another frame; the status as of a load. */
 enum status load_frame(struct loader *loader, struct load *load, unsigned frame);

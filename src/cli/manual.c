@@ -62,9 +62,11 @@ static void print_scenes(FILE *out) {
         print_line(out, text);
     }
     fputs(".fi\n.PP\n", out);
-    print_line(out, "The objects, materials, lights and all other mappings of a scene, and their keys, are told by "
-                    "`monge help WORD`; `monge help language` lists them. `monge check` finds the mistakes of a scene, "
-                    "and `monge schema` lets an editor find them as you type.");
+    print_line(
+        out,
+        "The objects, materials, lights and all other mappings of a scene, and their keys, are told by "
+        "`monge help WORD`; `monge help language` lists them. `monge check` finds the mistakes of a scene, "
+        "and `monge schema` lets an editor find them as you type.");
 }
 
 static void print_examples(FILE *out) {

@@ -58,8 +58,11 @@ static bool read_frames(const struct option_row *row, const char *text, uint32_t
     } else {
         text = read_whole(text, row->low, row->high, &number[0]);
         if (!text) return false;
-        if (*text != '-') number[1] = number[0];
-        else if (isdigit((unsigned char)*++text) && !(text = read_whole(text, number[0], row->high, &number[1]))) return false;
+        if (*text != '-')
+            number[1] = number[0];
+        else if (isdigit((unsigned char)*++text) &&
+                 !(text = read_whole(text, number[0], row->high, &number[1])))
+            return false;
     }
     if (*text == ':' && !(text = read_whole(text + 1, 1, row->high, &number[2]))) return false;
     return !*text;
@@ -119,7 +122,9 @@ static void describe_value(const struct option_row *row, char *text, size_t size
     case VALUE_SIZE: snprintf(text, size, "WxH like 640x480, each from %u to %u", row->low, row->high); break;
     case VALUE_REGION: snprintf(text, size, "X,Y,W,H like 0,0,320,240, W and H from %u", row->low); break;
     case VALUE_CHOICE: describe_choice(row->value, text, size); break;
-    case VALUE_FRAMES: snprintf(text, size, "N, A-B, A- or all, perhaps with :STEP, from %u", row->low); break;
+    case VALUE_FRAMES:
+        snprintf(text, size, "N, A-B, A- or all, perhaps with :STEP, from %u", row->low);
+        break;
     case VALUE_PAIR: snprintf(text, size, "%s", row->value); break;
     }
 }

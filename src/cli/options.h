@@ -6,8 +6,9 @@
 
 struct option_value {
     bool given;
-    const char *text;   /* as the user wrote it; NULL for a switch */
-    uint32_t number[4]; /* of a whole number, a size or a region, in the order of writing; of frames: first, last (0: open), step */
+    const char *text; /* as the user wrote it; NULL for a switch */
+    uint32_t number
+        [4]; /* of a whole number, a size or a region, in the order of writing; of frames: first, last (0: open), step */
     double fraction;
     unsigned choice; /* which of the words of the table, from 0 */
 };

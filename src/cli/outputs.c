@@ -59,13 +59,15 @@ static char *usual_name(const struct plan *plan, const struct pattern_values *va
     char *text = say_text("%s", values->name);
     for (size_t i = 0; i < plan->sweep->count; i++) {
         if (plan->sweep->axes[i].count == 1) continue;
-        char *safe = pattern_safe(values->defines[i].value), *part = say_text("-%s=%s", values->defines[i].name, safe);
+        char *safe = pattern_safe(values->defines[i].value),
+             *part = say_text("-%s=%s", values->defines[i].name, safe);
         text = joined(text, part);
         free(part);
         free(safe);
     }
     if (plan->frames) {
-        char *part = values->frame ? say_text("-%0*u", values->digits < 4 ? 4 : values->digits, values->frame) : say_text("-{frame}");
+        char *part = values->frame ? say_text("-%0*u", values->digits < 4 ? 4 : values->digits, values->frame)
+                                   : say_text("-{frame}");
         text = joined(text, part);
         free(part);
     }
@@ -73,9 +75,14 @@ static char *usual_name(const struct plan *plan, const struct pattern_values *va
 }
 
 /* The path of a picture; of `frame` 0, as far as it is known without the frame. */
-static char *picture_path(const struct plan *plan, const struct output *output, unsigned frame, unsigned last) {
-    const struct pattern_values values = {.name = output->name, .defines = output->defines, .define_count = plan->sweep->count,
-                                          .frames = plan->frames != NULL, .frame = frame, .digits = digits_of(last)};
+static char *picture_path(const struct plan *plan, const struct output *output, unsigned frame,
+                          unsigned last) {
+    const struct pattern_values values = {.name = output->name,
+                                          .defines = output->defines,
+                                          .define_count = plan->sweep->count,
+                                          .frames = plan->frames != NULL,
+                                          .frame = frame,
+                                          .digits = digits_of(last)};
     if (!plan->wanted) return is_stream(output->scene) ? say_text("-") : usual_name(plan, &values);
     char *path = pattern_expand(plan->wanted, &values);
     const bool slash = ends_in_slash(path);
@@ -104,7 +111,9 @@ static char *better_pattern(const struct plan *plan) {
     return joined(text, extended ? dot : ".png");
 }
 
-static bool many_frames(const struct plan *plan) { return plan->frames && plan->frames->number[0] != plan->frames->number[1]; }
+static bool many_frames(const struct plan *plan) {
+    return plan->frames && plan->frames->number[0] != plan->frames->number[1];
+}
 
 /* A single file for many pictures is wrong, but for one that takes them all, as a device does. */
 static bool check_pattern(const struct plan *plan) {
@@ -116,8 +125,10 @@ static bool check_pattern(const struct plan *plan) {
     const bool one_file = plan->count > 1 && pattern_is_plain(wanted, plan->frames != NULL);
     if (!no_frame && !one_file) return true;
     char *pattern = better_pattern(plan);
-    char *many = no_frame ? say_text("many frames") : say_text("%zu %s", plan->count, plan->sweep->total > 1 ? "pictures" : "scenes");
-    say_usage(COMMAND_RENDER, "-o %s is one file for %s: end it in / for a folder, or write -o '%s'", wanted, many, pattern);
+    char *many = no_frame ? say_text("many frames")
+                          : say_text("%zu %s", plan->count, plan->sweep->total > 1 ? "pictures" : "scenes");
+    say_usage(COMMAND_RENDER, "-o %s is one file for %s: end it in / for a folder, or write -o '%s'", wanted,
+              many, pattern);
     free(many);
     free(pattern);
     return false;
@@ -125,12 +136,14 @@ static bool check_pattern(const struct plan *plan) {
 
 /* Pictures of other kinds are not written; to call one so would fool whoever opens it. */
 static bool check_extension(const char *wanted) {
-    static const char *const others[] = {"jpg", "jpeg", "gif", "bmp", "tif", "tiff", "webp", "avif", "ppm", "exr", "hdr", "tga", "svg", "pdf"};
+    static const char *const others[] = {"jpg",  "jpeg", "gif", "bmp", "tif", "tiff", "webp",
+                                         "avif", "ppm",  "exr", "hdr", "tga", "svg",  "pdf"};
     const char *dot = strrchr(wanted + folder_length(wanted), '.');
     if (!dot || is_folder(wanted) || is_special(wanted)) return true;
     for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
         if (strcasecmp(dot + 1, others[i]) != 0) continue;
-        say_usage(COMMAND_RENDER, "-o %s: pictures are PNG; did you mean %.*s.png?", wanted, (int)(dot - wanted), wanted);
+        say_usage(COMMAND_RENDER, "-o %s: pictures are PNG; did you mean %.*s.png?", wanted,
+                  (int)(dot - wanted), wanted);
         return false;
     }
     return true;
@@ -168,7 +181,8 @@ static void report_collision(const struct plan *plan, const struct claim *a, con
     if (!b->writes)
         say_usage(COMMAND_RENDER, "%s would be written over by the output of %s", b->user, a->user);
     else if (pattern && strcmp(pattern, plan->wanted) != 0)
-        say_usage(COMMAND_RENDER, "%s and %s would both write %s; write -o '%s'", a->user, b->user, a->place, pattern);
+        say_usage(COMMAND_RENDER, "%s and %s would both write %s; write -o '%s'", a->user, b->user, a->place,
+                  pattern);
     else
         say_usage(COMMAND_RENDER, "%s and %s would both write %s", a->user, b->user, a->place);
     free(pattern);
@@ -193,15 +207,19 @@ static void add_claim(struct plan *plan, const char *path, const char *user, boo
 
 static bool make_room(struct plan *plan, size_t more) {
     struct claim *claims = realloc(plan->claims, (plan->claim_count + more) * sizeof *claims);
-    if (claims) plan->claims = claims;
-    else say_error("out of memory");
+    if (claims)
+        plan->claims = claims;
+    else
+        say_error("out of memory");
     return claims != NULL;
 }
 
 static bool check_files(struct plan *plan) {
     if (!make_room(plan, plan->count * 2 + 1)) return false;
-    for (size_t i = 0; i < plan->count; i += plan->sweep->total) add_claim(plan, plan->outputs[i].scene, plan->outputs[i].scene, false);
-    for (size_t i = 0; i < plan->count; i++) add_claim(plan, plan->outputs[i].path, plan->outputs[i].title, true);
+    for (size_t i = 0; i < plan->count; i += plan->sweep->total)
+        add_claim(plan, plan->outputs[i].scene, plan->outputs[i].scene, false);
+    for (size_t i = 0; i < plan->count; i++)
+        add_claim(plan, plan->outputs[i].path, plan->outputs[i].title, true);
     if (plan->stats) add_claim(plan, plan->stats, "--stats", true);
     return check_claims(plan);
 }
@@ -256,10 +274,13 @@ static bool check_writable(const char *path) {
 
 /* Whether -o asks for folders: a FILE does not, so that a slip of the pen makes none. */
 static bool makes_folders(const struct plan *plan) {
-    return plan->wanted && (ends_in_slash(plan->wanted) || !pattern_is_plain(plan->wanted, plan->frames != NULL));
+    return plan->wanted &&
+           (ends_in_slash(plan->wanted) || !pattern_is_plain(plan->wanted, plan->frames != NULL));
 }
 
-static bool check_folder(const struct plan *plan, char *path) { return (!makes_folders(plan) || make_folder(path)) && check_writable(path); }
+static bool check_folder(const struct plan *plan, char *path) {
+    return (!makes_folders(plan) || make_folder(path)) && check_writable(path);
+}
 
 /* Whether the folder is known before the frame is. */
 static bool has_known_folder(const struct output *output) {
@@ -276,7 +297,9 @@ static bool check_folders(const struct plan *plan) {
 /* ---- The plan ---- */
 
 static bool make_output(struct plan *plan, const char *scene, size_t combination, struct output *output) {
-    *output = (struct output){.scene = scene, .name = scene_name(scene), .defines = calloc(plan->sweep->count + 1, sizeof *output->defines)};
+    *output = (struct output){.scene = scene,
+                              .name = scene_name(scene),
+                              .defines = calloc(plan->sweep->count + 1, sizeof *output->defines)};
     if (!output->defines) return false;
     sweep_combination(plan->sweep, combination, output->defines);
     char *with = sweep_describe(plan->sweep, output->defines);
@@ -304,8 +327,9 @@ bool plan_begin(struct plan *plan, const struct arguments *args, const struct sw
         .scene_count = args->count,
         .count = args->count * sweep->total,
     };
-    return check_pattern(plan) && (!plan->wanted || check_extension(plan->wanted)) && make_outputs(plan, args->operands) &&
-           check_streams(plan) && check_files(plan) && check_folders(plan);
+    return check_pattern(plan) && (!plan->wanted || check_extension(plan->wanted)) &&
+           make_outputs(plan, args->operands) && check_streams(plan) && check_files(plan) &&
+           check_folders(plan);
 }
 
 void plan_free(struct plan *plan) {
@@ -329,11 +353,13 @@ static bool check_paths(struct plan *plan, const struct output *output, char **p
     return true;
 }
 
-char **plan_frames(struct plan *plan, const struct output *output, const unsigned *frames, size_t count, unsigned last) {
+char **plan_frames(struct plan *plan, const struct output *output, const unsigned *frames, size_t count,
+                   unsigned last) {
     char **paths = calloc(count + 1, sizeof *paths);
     if (!paths) say_error("out of memory");
     for (size_t i = 0; paths && i < count; i++) paths[i] = picture_path(plan, output, frames[i], last);
-    if (!paths || strcmp(paths[0], output->path) == 0 || check_paths(plan, output, paths, count)) return paths;
+    if (!paths || strcmp(paths[0], output->path) == 0 || check_paths(plan, output, paths, count))
+        return paths;
     paths_free(paths, count);
     return NULL;
 }

@@ -9,7 +9,7 @@ struct output {
     char *name;                   /* owned: the scene's file name without .yaml or .yml; "stdin" */
     struct monge_define *defines; /* owned: a combination of the sweep */
     char *title;                  /* owned: the scene, and the values that tell it from others of the sweep */
-    char *path;                   /* owned; "-": standard output. With --frames a pattern: its {frame} is not known yet */
+    char *path; /* owned; "-": standard output. With --frames a pattern: its {frame} is not known yet */
 };
 
 struct claim;
@@ -33,7 +33,8 @@ void plan_free(struct plan *plan);
 
 /* The same for the frames of an output, `last` being the last one of the whole animation: the paths of
  * frames[0 .. count-1]. NULL when something is wrong. To be freed by paths_free. */
-char **plan_frames(struct plan *plan, const struct output *output, const unsigned *frames, size_t count, unsigned last);
+char **plan_frames(struct plan *plan, const struct output *output, const unsigned *frames, size_t count,
+                   unsigned last);
 void paths_free(char **paths, size_t count);
 
 #endif

@@ -50,7 +50,8 @@ static struct piece take_piece(const char **at, bool frames) {
 }
 
 static bool is_word(const struct piece *piece, const char *word) {
-    return piece->kind == PIECE_WORD && (size_t)piece->length == strlen(word) && strncmp(piece->text, word, (size_t)piece->length) == 0;
+    return piece->kind == PIECE_WORD && (size_t)piece->length == strlen(word) &&
+           strncmp(piece->text, word, (size_t)piece->length) == 0;
 }
 
 /* ---- Questions ---- */
@@ -94,15 +95,21 @@ static void report_unknown(const char *found, const char *word, const struct swe
         all = longer;
     }
     const char *best = suggestion_best(&nearest);
-    if (strcmp(word, "frame") == 0) say_usage(COMMAND_RENDER, "-o: {frame} is for --frames");
-    else if (best) say_usage(COMMAND_RENDER, "-o: expected %s, found `%s`; did you mean {%s}?", all, found, best);
-    else say_usage(COMMAND_RENDER, "-o: expected %s, found `%s`%s", all, found, sweep->count ? "" : "; -D NAME=VALUE makes a {NAME}");
+    if (strcmp(word, "frame") == 0)
+        say_usage(COMMAND_RENDER, "-o: {frame} is for --frames");
+    else if (best)
+        say_usage(COMMAND_RENDER, "-o: expected %s, found `%s`; did you mean {%s}?", all, found, best);
+    else
+        say_usage(COMMAND_RENDER, "-o: expected %s, found `%s`%s", all, found,
+                  sweep->count ? "" : "; -D NAME=VALUE makes a {NAME}");
     free(all);
 }
 
 static bool check_piece(const struct piece *p, const struct sweep *sweep, bool frames) {
     if (p->kind == PIECE_WRONG && *p->text == '%') {
-        say_usage(COMMAND_RENDER, "-o: with --frames, expected %%d, %%04d or the like, or %%%% for a %%, found `%s`", p->text);
+        say_usage(COMMAND_RENDER,
+                  "-o: with --frames, expected %%d, %%04d or the like, or %%%% for a %%, found `%s`",
+                  p->text);
         return false;
     }
     if (p->kind == PIECE_WRONG) report_unknown(p->text, "", sweep, frames);
@@ -131,8 +138,10 @@ char *pattern_safe(const char *value) {
     bool good = false; /* something besides dots, which alone would name a folder */
     for (; *value; value++) {
         const bool plain = isalnum((unsigned char)*value) || strchr("._+-", *value);
-        if (plain) *to++ = *value;
-        else if (to > safe && to[-1] != '_') *to++ = '_';
+        if (plain)
+            *to++ = *value;
+        else if (to > safe && to[-1] != '_')
+            *to++ = '_';
         good |= plain && *value != '.';
     }
     while (to > safe && to[-1] == '_') to--;

@@ -78,30 +78,36 @@ static struct monge_film *render_film(const struct option_value *option, const c
 }
 
 /* "king"; of many pictures "king  picture 2 of 5", of frames "king  frame 12 of 48". */
-static char *progress_title(const struct work *work, const struct output *output, const struct load *load, unsigned frame) {
+static char *progress_title(const struct work *work, const struct output *output, const struct load *load,
+                            unsigned frame) {
     if (work->plan.frames) {
         char *values = sweep_describe(&work->loader.sweep, output->defines);
-        char *title = say_text("%s%s%s  frame %u of %u", output->name, *values ? " " : "", values, frame, monge_scene_frames(load->scene));
+        char *title = say_text("%s%s%s  frame %u of %u", output->name, *values ? " " : "", values, frame,
+                               monge_scene_frames(load->scene));
         free(values);
         return title;
     }
     const size_t number = (size_t)(output - work->plan.outputs) + 1;
-    return work->plan.count > 1 ? say_text("%s  picture %zu of %zu", output->name, number, work->plan.count) : say_text("%s", output->name);
+    return work->plan.count > 1 ? say_text("%s  picture %zu of %zu", output->name, number, work->plan.count)
+                                : say_text("%s", output->name);
 }
 
-static enum status choose_settings(const struct work *work, const char *scene, const struct load *load, struct picture *picture) {
+static enum status choose_settings(const struct work *work, const char *scene, const struct load *load,
+                                   struct picture *picture) {
     const struct option_value *option = work->args.option;
     picture->settings = monge_scene_settings(load->scene);
     override_settings(option, &picture->settings);
     const char *wrong = monge_settings_check(&picture->settings);
     if (wrong) say_error("%s: %s", scene, wrong);
-    if (wrong || !choose_region(&option[OPTION_REGION], scene, &picture->settings, &picture->region)) return STATUS_TROUBLE;
+    if (wrong || !choose_region(&option[OPTION_REGION], scene, &picture->settings, &picture->region))
+        return STATUS_TROUBLE;
     if (load_allows(&work->loader, scene, &picture->settings)) return STATUS_YES;
     return option[OPTION_SIZE].given ? STATUS_TROUBLE : STATUS_NO;
 }
 
 /* Everything after loading. A signal in here ends the program once nothing is half done. */
-static enum status render_scene(struct work *work, const struct output *output, const struct load *load, struct picture *picture) {
+static enum status render_scene(struct work *work, const struct output *output, const struct load *load,
+                                struct picture *picture) {
     const enum status settings = choose_settings(work, output->scene, load, picture);
     if (settings != STATUS_YES) return settings;
     char *title = progress_title(work, output, load, picture->frame);
@@ -118,8 +124,8 @@ static enum status render_scene(struct work *work, const struct output *output, 
 }
 
 /* The scene as it is now, which began to be loaded at `begun`. */
-static enum status render_picture(struct work *work, const struct output *output, struct load *load, double begun,
-                                  struct picture *picture) {
+static enum status render_picture(struct work *work, const struct output *output, struct load *load,
+                                  double begun, struct picture *picture) {
     const double loaded = clock_seconds();
     const bool built = monge_scene_prepare(load->scene); /* here a signal may still end the program at once */
     const double prepared = clock_seconds();
@@ -131,32 +137,40 @@ static enum status render_picture(struct work *work, const struct output *output
     picture->load_seconds = loaded - begun;
     picture->stats.build_seconds += prepared - loaded;
     if (picture->done && !work->args.option[OPTION_QUIET].given)
-        say_note("wrote %s  %ux%u  %.2f s", strcmp(picture->output, "-") == 0 ? "standard output" : picture->output,
+        say_note("wrote %s  %ux%u  %.2f s",
+                 strcmp(picture->output, "-") == 0 ? "standard output" : picture->output,
                  picture->region.width, picture->region.height, clock_seconds() - begun);
     return status;
 }
 
 /* ---- The frames of a scene ---- */
 
-static struct picture *add_picture(struct work *work, const struct output *output, const char *path, unsigned frame) {
+static struct picture *add_picture(struct work *work, const struct output *output, const char *path,
+                                   unsigned frame) {
     struct picture *pictures = realloc(work->pictures, (work->count + 1) * sizeof *pictures);
     if (!pictures) {
         say_error("out of memory");
         exit(STATUS_TROUBLE);
     }
     work->pictures = pictures;
-    pictures[work->count] = (struct picture){.scene = output->scene, .output = say_text("%s", path), .frame = frame,
-                                             .defines = output->defines, .define_count = work->loader.sweep.count};
+    pictures[work->count] = (struct picture){.scene = output->scene,
+                                             .output = say_text("%s", path),
+                                             .frame = frame,
+                                             .defines = output->defines,
+                                             .define_count = work->loader.sweep.count};
     return &pictures[work->count++];
 }
 
 /* The frames that --frames asks for, of an animation of `total`; without it the first alone. NULL, with the reason
  * on stderr, where they are not there. To be freed. */
-static unsigned *choose_frames(const struct option_value *option, const char *scene, unsigned total, size_t *count) {
-    const unsigned first = option->given ? option->number[0] : 1, step = option->given ? option->number[2] : 1;
+static unsigned *choose_frames(const struct option_value *option, const char *scene, unsigned total,
+                               size_t *count) {
+    const unsigned first = option->given ? option->number[0] : 1,
+                   step = option->given ? option->number[2] : 1;
     const unsigned last = !option->given ? 1 : option->number[1] ? option->number[1] : total;
     if (option->given && total == 0) {
-        say_error("--frames %s: %s has no animation; `animation: {frames: 48}` makes one", option->text, scene);
+        say_error("--frames %s: %s has no animation; `animation: {frames: 48}` makes one", option->text,
+                  scene);
         return NULL;
     }
     if (option->given && (first > total || last > total)) {
@@ -171,8 +185,8 @@ static unsigned *choose_frames(const struct option_value *option, const char *sc
 }
 
 /* Frame number `index` of those to render; the scene stands at the first already. */
-static enum status render_frame(struct work *work, const struct output *output, struct load *load, const char *path, unsigned frame,
-                                size_t index, double begun) {
+static enum status render_frame(struct work *work, const struct output *output, struct load *load,
+                                const char *path, unsigned frame, size_t index, double begun) {
     struct picture *picture = add_picture(work, output, path, work->plan.frames ? frame : 0);
     const enum status status = index == 0 ? STATUS_YES : load_frame(&work->loader, load, frame);
     if (status == STATUS_YES) return render_picture(work, output, load, begun, picture);
@@ -180,7 +194,8 @@ static enum status render_frame(struct work *work, const struct output *output, 
     return status;
 }
 
-static enum status render_frames(struct work *work, const struct output *output, struct load *load, double begun) {
+static enum status render_frames(struct work *work, const struct output *output, struct load *load,
+                                 double begun) {
     size_t count = 0;
     const unsigned total = monge_scene_frames(load->scene);
     unsigned *frames = choose_frames(&work->args.option[OPTION_FRAMES], output->scene, total, &count);
@@ -188,7 +203,8 @@ static enum status render_frames(struct work *work, const struct output *output,
     enum status worst = paths ? STATUS_YES : STATUS_TROUBLE;
     if (!paths) add_picture(work, output, output->path, 0);
     for (size_t i = 0; paths && i < count; i++) {
-        const enum status status = render_frame(work, output, load, paths[i], frames[i], i, i == 0 ? begun : clock_seconds());
+        const enum status status =
+            render_frame(work, output, load, paths[i], frames[i], i, i == 0 ? begun : clock_seconds());
         if (status > worst) worst = status;
     }
     paths_free(paths, count);
@@ -198,10 +214,13 @@ static enum status render_frames(struct work *work, const struct output *output,
 
 static enum status render_output(struct work *work, const struct output *output) {
     const double begun = clock_seconds();
-    struct load load = load_scene(&work->loader, output->scene, output->defines, work->args.option[OPTION_FRAMES].number[0]);
+    struct load load =
+        load_scene(&work->loader, output->scene, output->defines, work->args.option[OPTION_FRAMES].number[0]);
     enum status status = load.status;
-    if (load.scene) status = render_frames(work, output, &load, begun);
-    else add_picture(work, output, output->path, 0);
+    if (load.scene)
+        status = render_frames(work, output, &load, begun);
+    else
+        add_picture(work, output, output->path, 0);
     load_close(&work->loader, &load);
     return status;
 }
@@ -228,7 +247,8 @@ static enum status render_outputs(struct work *work) {
 
 static bool work_begin(struct work *work, const struct arguments *args) {
     *work = (struct work){.args = *args};
-    if (!loader_begin(&work->loader, args) || !plan_begin(&work->plan, args, &work->loader.sweep)) return false;
+    if (!loader_begin(&work->loader, args) || !plan_begin(&work->plan, args, &work->loader.sweep))
+        return false;
     /* a document on stderr must be alone there: the notes are left out */
     if (work->loader.report.format != MONGE_FORMAT_TEXT) work->args.option[OPTION_QUIET].given = true;
     return true;

@@ -15,7 +15,9 @@ bool report_begin(struct report *report, const struct arguments *args) {
     return report->all != NULL;
 }
 
-struct monge_diagnostics *report_open(struct report *report) { return report->all ? report->all : new_diagnostics(); }
+struct monge_diagnostics *report_open(struct report *report) {
+    return report->all ? report->all : new_diagnostics();
+}
 
 void report_show(const struct report *report, struct monge_diagnostics *diag) {
     if (diag != report->all) monge_diagnostics_print_new(diag, stderr);

@@ -28,7 +28,8 @@ static bool read_number(const char **text, double *number) {
     const char *at = *text + (**text == '-');
     const size_t whole = strspn(at, "0123456789");
     size_t length = whole;
-    if (at[length] == '.' && isdigit((unsigned char)at[length + 1])) length += 1 + strspn(at + length + 1, "0123456789");
+    if (at[length] == '.' && isdigit((unsigned char)at[length + 1]))
+        length += 1 + strspn(at + length + 1, "0123456789");
     if (whole == 0) return false;
     *number = strtod(*text, NULL);
     *text = at + length;
@@ -49,7 +50,8 @@ static bool read_range(const char *text, double *first, double *last, double *st
 static bool add_range(struct axis *axis, double first, double last, double step) {
     const double turns = step > 0.0 ? floor(fabs(last - first) / step + 1e-9) : INFINITY;
     if (!(turns < MAX_COMBINATIONS)) return false;
-    for (double i = 0.0; i <= turns; i++) add_value(axis, say_text("%.12g", first < last ? first + i * step : first - i * step));
+    for (double i = 0.0; i <= turns; i++)
+        add_value(axis, say_text("%.12g", first < last ? first + i * step : first - i * step));
     return true;
 }
 
@@ -60,12 +62,18 @@ static const char *item_end(const char *text) {
     size_t depth = 0;
     char quote = 0;
     for (; *text; text++) {
-        if (quote == '"' && *text == '\\' && text[1]) text++;
-        else if (quote) quote = *text == quote ? 0 : quote;
-        else if (*text == '"' || *text == '\'') quote = *text;
-        else if (strchr("[({", *text)) depth++;
-        else if (strchr("])}", *text) && depth > 0) depth--;
-        else if (*text == ',' && depth == 0) return text;
+        if (quote == '"' && *text == '\\' && text[1])
+            text++;
+        else if (quote)
+            quote = *text == quote ? 0 : quote;
+        else if (*text == '"' || *text == '\'')
+            quote = *text;
+        else if (strchr("[({", *text))
+            depth++;
+        else if (strchr("])}", *text) && depth > 0)
+            depth--;
+        else if (*text == ',' && depth == 0)
+            return text;
     }
     return text;
 }
@@ -78,7 +86,9 @@ static bool add_item(struct axis *axis, enum command_id command, const char *tex
         return true;
     }
     const bool good = add_range(axis, first, last, step);
-    if (!good) say_usage(command, "-D %s: `%s` is no range of at most %d values", axis->name, item, MAX_COMBINATIONS);
+    if (!good)
+        say_usage(command, "-D %s: `%s` is no range of at most %d values", axis->name, item,
+                  MAX_COMBINATIONS);
     free(item);
     return good;
 }
@@ -133,7 +143,8 @@ static struct axis *open_axis(struct sweep *sweep, char *name) {
 
 static bool read_define(struct sweep *sweep, enum command_id command, const char *text) {
     const size_t length = strcspn(text, "=");
-    if (is_name(text, length)) return read_list(open_axis(sweep, say_text("%.*s", (int)length, text)), command, text + length + 1);
+    if (is_name(text, length))
+        return read_list(open_axis(sweep, say_text("%.*s", (int)length, text)), command, text + length + 1);
     say_usage(command, "-D %s: a parameter has letters, digits and _ in its name, the first no digit", text);
     return false;
 }
@@ -141,7 +152,8 @@ static bool read_define(struct sweep *sweep, enum command_id command, const char
 bool sweep_read(const struct arguments *args, struct sweep *sweep) {
     *sweep = (struct sweep){.total = 1};
     for (size_t i = 0; i < args->pair_count; i++)
-        if (args->pairs[i].option == OPTION_DEFINE && !read_define(sweep, args->command, args->pairs[i].text)) return false;
+        if (args->pairs[i].option == OPTION_DEFINE && !read_define(sweep, args->command, args->pairs[i].text))
+            return false;
     for (size_t i = 0; i < sweep->count; i++) {
         sweep->total *= sweep->axes[i].count;
         if (sweep->total <= MAX_COMBINATIONS) continue;

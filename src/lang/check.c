@@ -18,10 +18,13 @@ struct collection {
 
 static void collect(struct checker *ck, void *context) {
     struct collection *c = context;
-    const struct node *when = node_resolve(c->item)->kind == NODE_MAPPING ? node_get(node_resolve(c->item), "when") : NULL;
+    const struct node *when =
+        node_resolve(c->item)->kind == NODE_MAPPING ? node_get(node_resolve(c->item), "when") : NULL;
     bool holds = true;
     if (!place_count_step(ck, c->item)) return;
-    if (when && grammar_find_key(c->kind, "when") >= 0 && loop_condition(ck, when, &holds) == QUANTITY_OK && !holds) return;
+    if (when && grammar_find_key(c->kind, "when") >= 0 && loop_condition(ck, when, &holds) == QUANTITY_OK &&
+        !holds)
+        return;
     struct object_value *object = check_object(ck, c->kind, c->item);
     if (!object) return;
     if (c->list.count == c->room) {
@@ -42,14 +45,18 @@ static void collect_item(struct checker *ck, struct collection *c, const struct 
     if (b) ck->diag->frame = &frame;
     c->item = b ? b->node : item;
     const struct node *n = node_resolve(c->item);
-    const struct node *loop = n->kind == NODE_MAPPING && grammar_find_key(c->kind, "for") >= 0 ? node_get(n, "for") : NULL;
-    if (loop) loop_run(ck, loop, collect, c);
-    else collect(ck, c);
+    const struct node *loop =
+        n->kind == NODE_MAPPING && grammar_find_key(c->kind, "for") >= 0 ? node_get(n, "for") : NULL;
+    if (loop)
+        loop_run(ck, loop, collect, c);
+    else
+        collect(ck, c);
     ck->diag->frame = frame.outer;
     ck->scope = outer;
 }
 
-static bool check_list_of(struct checker *ck, const struct grammar_key *key, const struct node *node, struct value *out) {
+static bool check_list_of(struct checker *ck, const struct grammar_key *key, const struct node *node,
+                          struct value *out) {
     const struct node *n = node_resolve(node);
     const bool objects = key->of == &grammar_kinds[KIND_OBJECT], one = n->kind == NODE_MAPPING && key->single;
     if (n->kind != NODE_SEQUENCE && !one) {
@@ -69,33 +76,45 @@ static bool check_list_of(struct checker *ck, const struct grammar_key *key, con
 
 static bool key_is_word(struct checker *ck, const struct grammar_kind *kind, const struct node *key) {
     if (node_resolve(key)->kind == NODE_SCALAR) return true;
-    diag_error(ck->diag, key->span, "key-not-a-word", "a key of %s is a word, found %s", kind->title, found_text(ck, key));
+    diag_error(ck->diag, key->span, "key-not-a-word", "a key of %s is a word, found %s", kind->title,
+               found_text(ck, key));
     return false;
 }
 
 /* The definition that a scalar names; NULL: reported, or not there yet. */
-static struct definition *find_definition(struct checker *ck, const struct grammar_key *key, const struct definitions *among, const struct node *node) {
+static struct definition *find_definition(struct checker *ck, const struct grammar_key *key,
+                                          const struct definitions *among, const struct node *node) {
     const struct node *n = node_resolve(node);
     if (n->kind != NODE_SCALAR || n->count == 0) {
-        diag_error(ck->diag, node->span, "not-a-text", "`%s`: expected a name, found %s", key->name, found_text(ck, node));
+        diag_error(ck->diag, node->span, "not-a-text", "`%s`: expected a name, found %s", key->name,
+                   found_text(ck, node));
         return NULL;
     }
     struct definition *def = table_find(&among->names, n->text);
     if (def) return def;
-    if (ck->provisional && among != &ck->presets) ck->waiting = true;
-    else if (!ck->names_lost) report_no_name(ck, key, among, node);
+    if (ck->provisional && among != &ck->presets)
+        ck->waiting = true;
+    else if (!ck->names_lost)
+        report_no_name(ck, key, among, node);
     return NULL;
 }
 
-static bool check_name(struct checker *ck, const struct grammar_key *key, const struct node *node, struct value *out) {
-    const bool template = key->of == &grammar_kinds[KIND_TEMPLATE], preset = key == &grammar_kinds[KIND_MATERIAL].keys[KEY_MATERIAL_PRESET];
-    out->definition = find_definition(ck, key, template ? &ck->templates : preset ? define_presets(ck) : &ck->materials, node);
+static bool check_name(struct checker *ck, const struct grammar_key *key, const struct node *node,
+                       struct value *out) {
+    const bool template = key->of == &grammar_kinds[KIND_TEMPLATE],
+               preset = key == &grammar_kinds[KIND_MATERIAL].keys[KEY_MATERIAL_PRESET];
+    out->definition = find_definition(ck, key,
+                                      template ? &ck->templates
+                                      : preset ? define_presets(ck)
+                                               : &ck->materials,
+                                      node);
     return out->definition != NULL;
 }
 
 /* A material's keys that are not given are those of the one that it extends. False: reported. */
 static bool inherit(struct checker *ck, struct object_value *object) {
-    struct value *base = object->fields[KEY_MATERIAL_PRESET] ? object->fields[KEY_MATERIAL_PRESET] : object->fields[KEY_MATERIAL_EXTENDS];
+    struct value *base = object->fields[KEY_MATERIAL_PRESET] ? object->fields[KEY_MATERIAL_PRESET]
+                                                             : object->fields[KEY_MATERIAL_EXTENDS];
     if (!base || !base->definition) return true; /* none; or in a rehearsal: a variable names it */
     const struct object_value *from = define_read(ck, base->definition);
     if (!from) return false;
@@ -107,7 +126,8 @@ static bool inherit(struct checker *ck, struct object_value *object) {
 
 /* ---- Values ---- */
 
-static bool check_mapping_value(struct checker *ck, const struct grammar_key *key, const struct node *node, struct value *out) {
+static bool check_mapping_value(struct checker *ck, const struct grammar_key *key, const struct node *node,
+                                struct value *out) {
     out->is_object = true;
     if (key->named && node_resolve(node)->kind == NODE_SCALAR && node_resolve(node)->count > 0) {
         struct definition *def = find_definition(ck, key, &ck->materials, node);
@@ -119,7 +139,8 @@ static bool check_mapping_value(struct checker *ck, const struct grammar_key *ke
 }
 
 /* Names, each with a value that gets its meaning elsewhere. */
-static bool check_values(struct checker *ck, const struct grammar_key *key, const struct node *node, struct value *out) {
+static bool check_values(struct checker *ck, const struct grammar_key *key, const struct node *node,
+                         struct value *out) {
     const struct node *n = node_resolve(node);
     out->node = node;
     if (n->kind != NODE_MAPPING) {
@@ -132,13 +153,18 @@ static bool check_values(struct checker *ck, const struct grammar_key *key, cons
         good = false;
         if (report_cut_before(ck, n, name)) continue;
         const char *word = node_resolve(name)->kind == NODE_SCALAR ? node_resolve(name)->text : "";
-        struct diagnostic *d = diag_error(ck->diag, name->span, "no-value", "`%s` has no value", *word ? short_text(ck, word) : "it");
-        if (!report_help_comma(ck, d, n, name) && !report_help_glued(ck, d, word) && !report_help_hash(ck, d, name)) diag_help(ck->diag, d, "give it one, or remove the key");
+        struct diagnostic *d = diag_error(ck->diag, name->span, "no-value", "`%s` has no value",
+                                          *word ? short_text(ck, word) : "it");
+        if (!report_help_comma(ck, d, n, name) && !report_help_glued(ck, d, word) &&
+            !report_help_hash(ck, d, name))
+            diag_help(ck->diag, d, "give it one, or remove the key");
     }
-    return good || key == &grammar_kinds[KIND_TEMPLATE].keys[KEY_TEMPLATE_PARAMS]; /* the others are known all the same */
+    return good || key == &grammar_kinds[KIND_TEMPLATE]
+                               .keys[KEY_TEMPLATE_PARAMS]; /* the others are known all the same */
 }
 
-static bool check_written(struct checker *ck, const struct grammar_key *key, const struct node *node, struct value *out);
+static bool check_written(struct checker *ck, const struct grammar_key *key, const struct node *node,
+                          struct value *out);
 
 /* In a rehearsal: what stands for a value that is not known. */
 static void take_any(struct checker *ck, const struct grammar_key *key, struct value *out) {
@@ -165,12 +191,14 @@ static bool may_vary(const struct grammar_key *key) {
 /* The names of presets are the program's: no variable hides one. */
 static bool is_preset(struct checker *ck, const struct grammar_key *key, const struct node *node) {
     const struct node *n = node_resolve(node);
-    if (key != &grammar_kinds[KIND_MATERIAL].keys[KEY_MATERIAL_PRESET] || n->kind != NODE_SCALAR) return false;
+    if (key != &grammar_kinds[KIND_MATERIAL].keys[KEY_MATERIAL_PRESET] || n->kind != NODE_SCALAR)
+        return false;
     return table_find(&define_presets(ck)->names, n->text) != NULL;
 }
 
 /* One value of the key's type, or a variable that has one. False: reported, or not known yet. */
-static bool check_value(struct checker *ck, const struct grammar_key *key, const struct node *node, struct value *out) {
+static bool check_value(struct checker *ck, const struct grammar_key *key, const struct node *node,
+                        struct value *out) {
     const struct binding *b = may_vary(key) && !is_preset(ck, key, node) ? scope_stands_for(ck, node) : NULL;
     out->span = node->span;
     if (!b) return check_written(ck, key, node, out);
@@ -200,7 +228,8 @@ static bool node_is_number(const struct node *node) {
     return n->kind == NODE_SCALAR && scalar_is_number(n->text);
 }
 
-static bool check_written(struct checker *ck, const struct grammar_key *key, const struct node *node, struct value *out) {
+static bool check_written(struct checker *ck, const struct grammar_key *key, const struct node *node,
+                          struct value *out) {
     switch (key->type) {
     case GRAMMAR_NUMBER:
         out->computed = !node_is_number(node);
@@ -214,7 +243,8 @@ static bool check_written(struct checker *ck, const struct grammar_key *key, con
     case GRAMMAR_FACTORS: return check_vector(ck, key, node, &out->vector);
     case GRAMMAR_COLOR:
     case GRAMMAR_AMOUNT:
-        if (key->of && node_resolve(node)->kind == NODE_MAPPING && !keyframes_is(node_resolve(node))) return check_mapping_value(ck, key, node, out);
+        if (key->of && node_resolve(node)->kind == NODE_MAPPING && !keyframes_is(node_resolve(node)))
+            return check_mapping_value(ck, key, node, out);
         return check_color(ck, key, node, &out->vector);
     case GRAMMAR_SIZE: return check_size(ck, key, node, &out->vector);
     case GRAMMAR_MATRIX: return check_matrix(ck, key, node, &out->matrix);
@@ -235,7 +265,8 @@ static bool check_written(struct checker *ck, const struct grammar_key *key, con
 /* ---- Mappings ---- */
 
 /* The value of `key` of an object of `kind`; NULL when something was reported. */
-static struct value *check_field(struct checker *ck, const struct grammar_kind *kind, const struct grammar_key *key, const struct node *name) {
+static struct value *check_field(struct checker *ck, const struct grammar_kind *kind,
+                                 const struct grammar_key *key, const struct node *name) {
     if (node_is_null(name->next)) {
         report_no_value(ck, key, name);
         return NULL;
@@ -248,27 +279,31 @@ static struct value *check_field(struct checker *ck, const struct grammar_kind *
     return ok ? value : NULL;
 }
 
-static void report_twice(struct checker *ck, const struct grammar_key *key, const struct node *name, const struct node *first) {
+static void report_twice(struct checker *ck, const struct grammar_key *key, const struct node *name,
+                         const struct node *first) {
     struct diagnostic *d = diag_error(ck->diag, name->span, "key-twice", "`%s` is given twice", key->name);
     diag_related(ck->diag, d, first->span, "first given here");
 }
 
 /* What stands under a key that nobody knows is checked as what was probably meant, so that its
  * mistakes come to light in the same run. */
-static void check_unknown(struct checker *ck, struct object_value *object, struct mapping *mapping, const struct node *name) {
+static void check_unknown(struct checker *ck, struct object_value *object, struct mapping *mapping,
+                          const struct node *name) {
     const int index = report_unknown_key(ck, object->kind, mapping, name);
     if (index < 0) return;
     const bool again = mapping->given[index] || mapping->meant[index];
     mapping->meant[index] = true;
     const struct grammar_key *key = &object->kind->keys[index];
     const struct value *value = again ? NULL : check_field(ck, object->kind, key, name);
-    const bool knows_names = object->kind != &grammar_kinds[KIND_TEMPLATE]; /* its parameters are not in scope here */
+    const bool knows_names =
+        object->kind != &grammar_kinds[KIND_TEMPLATE]; /* its parameters are not in scope here */
     if (value && knows_names && key->type == GRAMMAR_LIST && key->of == &grammar_kinds[KIND_OBJECT])
         place_members(ck, (int)(object->kind - grammar_kinds), index, value->node);
 }
 
 /* The pair's value goes to its field. False: something of it was reported. */
-static bool check_pair(struct checker *ck, struct object_value *object, struct mapping *mapping, const struct node *name, int index) {
+static bool check_pair(struct checker *ck, struct object_value *object, struct mapping *mapping,
+                       const struct node *name, int index) {
     if (!key_is_word(ck, object->kind, name)) return false;
     if (index < 0) {
         check_unknown(ck, object, mapping, name);
@@ -290,20 +325,28 @@ static bool check_pair(struct checker *ck, struct object_value *object, struct m
 static void check_required(struct checker *ck, struct object_value *object, const struct mapping *mapping) {
     for (int i = 0; i < object->kind->key_count; i++) {
         const struct grammar_key *key = &object->kind->keys[i];
-        if (!key->required || mapping->given[i] || (ck->included && object->kind == &grammar_kinds[KIND_FILE])) continue;
+        if (!key->required || mapping->given[i] ||
+            (ck->included && object->kind == &grammar_kinds[KIND_FILE]))
+            continue;
         object->failed = true;
         if (mapping->meant[i]) continue; /* reported as an unknown key */
-        struct diagnostic *d = diag_error(ck->diag, object->span, "missing-key", "%s needs the key `%s`", object->kind->title, key->name);
+        struct diagnostic *d = diag_error(ck->diag, object->span, "missing-key", "%s needs the key `%s`",
+                                          object->kind->title, key->name);
         if (key->example) diag_help(ck->diag, d, "as in `%s`", key->example);
     }
 }
 
-static void report_beside(struct checker *ck, const struct object_value *object, const struct node *key, const struct node *first) {
+static void report_beside(struct checker *ck, const struct object_value *object, const struct node *key,
+                          const struct node *first) {
     const char *one = node_resolve(first)->text;
-    struct diagnostic *d = diag_error(ck->diag, key->span, "one-of-them", "`%s` beside `%s`: %s is one of them", node_resolve(key)->text, one, object->kind->title);
+    struct diagnostic *d =
+        diag_error(ck->diag, key->span, "one-of-them", "`%s` beside `%s`: %s is one of them",
+                   node_resolve(key)->text, one, object->kind->title);
     diag_related(ck->diag, d, first->span, "`%s` is given here", one);
     const bool item = ck->around.key && ck->around.key->type == GRAMMAR_LIST;
-    diag_note(ck->diag, d, item ? "write each as an item of its own, starting with `- `" : "keep one of them; another is a step of its own");
+    diag_note(ck->diag, d,
+              item ? "write each as an item of its own, starting with `- `"
+                   : "keep one of them; another is a step of its own");
 }
 
 static bool in_order(const struct node *a, const struct node *b) {
@@ -311,7 +354,8 @@ static bool in_order(const struct node *a, const struct node *b) {
 }
 
 /* Exactly one of the alternatives, where the kind has any. Counts what is written, right or wrong. */
-static void check_alternatives(struct checker *ck, struct object_value *object, const struct mapping *mapping, bool unknown) {
+static void check_alternatives(struct checker *ck, struct object_value *object, const struct mapping *mapping,
+                               bool unknown) {
     const struct node *first = NULL;
     bool any = false;
     for (int i = 0; i < object->kind->key_count; i++) {
@@ -332,13 +376,15 @@ static void check_alternatives(struct checker *ck, struct object_value *object, 
 }
 
 /* `key` of the kind stands at `here`; `other` stands at `there` or nowhere. */
-static void check_companion(struct checker *ck, struct object_value *object, const struct mapping *mapping, int index) {
+static void check_companion(struct checker *ck, struct object_value *object, const struct mapping *mapping,
+                            int index) {
     const struct grammar_key *key = &object->kind->keys[index];
     const struct node *here = mapping->given[index];
     for (const char *const *other = key->excludes; other && *other; other++) {
         const struct node *there = mapping->given[grammar_find_key(object->kind, *other)];
         if (!there || in_order(here, there)) continue; /* reported at the later of the two */
-        struct diagnostic *d = diag_error(ck->diag, here->span, "contradiction", "`%s` contradicts `%s`", key->name, *other);
+        struct diagnostic *d =
+            diag_error(ck->diag, here->span, "contradiction", "`%s` contradicts `%s`", key->name, *other);
         diag_help(ck->diag, d, "keep one of them");
         diag_related(ck->diag, d, there->span, "`%s` is given here", *other);
         object->failed = true;
@@ -348,7 +394,8 @@ static void check_companion(struct checker *ck, struct object_value *object, con
         if (mapping->given[needed]) continue;
         object->failed = true;
         if (mapping->meant[needed]) continue;
-        struct diagnostic *d = diag_error(ck->diag, here->span, "missing-key", "`%s` needs `%s` beside it", key->name, *other);
+        struct diagnostic *d =
+            diag_error(ck->diag, here->span, "missing-key", "`%s` needs `%s` beside it", key->name, *other);
         if (key->example) diag_help(ck->diag, d, "as in `%s`", key->example);
     }
 }
@@ -385,7 +432,8 @@ static uint64_t find_given(const struct grammar_kind *kind, struct mapping *mapp
 
 static bool is_one(uint64_t bits) { return bits && !(bits & (bits - 1)); }
 
-struct object_value *check_object(struct checker *ck, const struct grammar_kind *kind, const struct node *node) {
+struct object_value *check_object(struct checker *ck, const struct grammar_kind *kind,
+                                  const struct node *node) {
     struct mapping mapping;
     mapping.node = node_resolve(node);
     if (mapping.node->kind != NODE_MAPPING) {
@@ -394,14 +442,16 @@ struct object_value *check_object(struct checker *ck, const struct grammar_kind 
     }
     assert(kind->key_count <= CHECK_MAX_KEYS);
     const uint64_t given = find_given(kind, &mapping);
-    struct object_value *object = arena_alloc(ck->arena, sizeof *object + (size_t)kind->key_count * sizeof *object->fields);
+    struct object_value *object =
+        arena_alloc(ck->arena, sizeof *object + (size_t)kind->key_count * sizeof *object->fields);
     object->kind = kind;
     object->span = node->span;
     object->fields = (struct value **)(object + 1);
     mapping.object = object;
     const bool unknown = check_pairs(ck, object, &mapping);
     if (kind->required & ~given) check_required(ck, object, &mapping);
-    if (kind->alternatives && !is_one(kind->alternatives & given)) check_alternatives(ck, object, &mapping, unknown);
+    if (kind->alternatives && !is_one(kind->alternatives & given))
+        check_alternatives(ck, object, &mapping, unknown);
     for (int i = 0; i < kind->key_count && (kind->companions & given) >> i; i++)
         if (mapping.given[i]) check_companion(ck, object, &mapping, i);
     if (kind == &grammar_kinds[KIND_MATERIAL] && !inherit(ck, object)) object->failed = true;

@@ -32,8 +32,8 @@ struct definitions {
 /* A parameter of the file: read when it is first needed. */
 struct parameter {
     const char *name;
-    struct span span;        /* of the name */
-    const struct node *node; /* its value, or a mapping of kind param */
+    struct span span;         /* of the name */
+    const struct node *node;  /* its value, or a mapping of kind param */
     const struct node *given; /* the value from outside; NULL: none */
     enum reading_state state;
     struct binding binding; /* DONE */
@@ -47,7 +47,7 @@ struct unit {
     const struct source *source;
     const char *path; /* to find what it includes */
     const struct unit *includer;
-    struct span include; /* where it was asked for */
+    struct span include;    /* where it was asked for */
     uint64_t device, inode; /* the same file is read once */
     struct node *root;
     const struct node *declared; /* the last pair of the root whose names are known; NULL: none yet */
@@ -61,7 +61,7 @@ struct surrounding {
 };
 
 struct checker {
-    struct arena *arena;       /* of what is being read: the scratch of an object, or kept */
+    struct arena *arena; /* of what is being read: the scratch of an object, or kept */
     struct lang_memory *memory;
     struct diagnostics *diag;
     const struct lang_input *input;
@@ -73,26 +73,26 @@ struct checker {
     const struct parameter *parameter; /* that is read now; NULL: none */
     struct unit *units;
     const struct object_value *animation; /* NULL: none, or not read yet */
-    bool names_lost;           /* definitions could not be read: nothing can be said of names */
-    bool variables_lost;       /* the same of parameters */
-    bool provisional;          /* more names may come: what is not there yet is waited for */
-    bool waiting;              /* a name was looked for in vain while provisional */
-    bool included;             /* the file that is checked is there for its definitions: it needs no scene */
-    bool rehearsing;           /* names and forms are checked; values are not known, nothing is placed */
-    bool stopped;              /* a limit was passed: evaluation is over */
-    bool moved;                /* the animation's variables were read */
-    unsigned depth;            /* of templates in use */
-    unsigned groups, loops;    /* groups and variables of loops that are open, through all templates */
-    unsigned waiters;          /* parameters that are being read, each for the one before */
-    size_t steps, objects;     /* against the limits */
+    bool names_lost;                      /* definitions could not be read: nothing can be said of names */
+    bool variables_lost;                  /* the same of parameters */
+    bool provisional;                     /* more names may come: what is not there yet is waited for */
+    bool waiting;                         /* a name was looked for in vain while provisional */
+    bool included;          /* the file that is checked is there for its definitions: it needs no scene */
+    bool rehearsing;        /* names and forms are checked; values are not known, nothing is placed */
+    bool stopped;           /* a limit was passed: evaluation is over */
+    bool moved;             /* the animation's variables were read */
+    unsigned depth;         /* of templates in use */
+    unsigned groups, loops; /* groups and variables of loops that are open, through all templates */
+    unsigned waiters;       /* parameters that are being read, each for the one before */
+    size_t steps, objects;  /* against the limits */
 };
 
 enum { CHECK_MAX_KEYS = 64 }; /* of a kind */
 
 /* A mapping that is checked as an object. */
 struct mapping {
-    const struct node *node;                  /* NODE_MAPPING */
-    const struct object_value *object;        /* what it becomes; its span is the alias's where there is one */
+    const struct node *node;           /* NODE_MAPPING */
+    const struct object_value *object; /* what it becomes; its span is the alias's where there is one */
     const struct node *given[CHECK_MAX_KEYS]; /* the first node of each key of the kind; NULL: not there */
     bool meant[CHECK_MAX_KEYS];               /* an unknown key was probably this one */
 };
@@ -124,7 +124,8 @@ bool scalar_number(struct checker *ck, const char *text, double *out);
 /* Three numbers in range; a direction is not null. */
 bool check_vector(struct checker *ck, const struct grammar_key *key, const struct node *node, vec3 *out);
 bool check_size(struct checker *ck, const struct grammar_key *key, const struct node *node, vec3 *out);
-bool check_matrix(struct checker *ck, const struct grammar_key *key, const struct node *node, const affine **out);
+bool check_matrix(struct checker *ck, const struct grammar_key *key, const struct node *node,
+                  const affine **out);
 
 /* ---- colors.c ---- */
 
@@ -140,7 +141,8 @@ double linear_from_srgb(double c);
 
 /* A mapping of the kind; what is wrong in it is reported and left out. NULL: it is no mapping. Lists of
  * objects in it stay nodes, see place.c. */
-struct object_value *check_object(struct checker *ck, const struct grammar_kind *kind, const struct node *node);
+struct object_value *check_object(struct checker *ck, const struct grammar_kind *kind,
+                                  const struct node *node);
 
 /* ---- define.c: names of the files ---- */
 
@@ -154,7 +156,8 @@ const char *define_name_taken(const char *name);
 void define_names(struct checker *ck, struct unit *unit);
 
 /* Whether the value, read in the scope of now, is in the range that a parameter's declaration states. Reported if not. */
-bool define_in_range(struct checker *ck, const char *name, const struct node *declared, const struct node *value);
+bool define_in_range(struct checker *ck, const char *name, const struct node *declared,
+                     const struct node *value);
 
 /* The definition's object, read now if it was not; NULL: reported, or not known yet. */
 struct object_value *define_read(struct checker *ck, struct definition *def);
@@ -179,7 +182,8 @@ void include_files(struct checker *ck, const struct unit *unit, const struct nod
 /* ---- loop.c ---- */
 
 /* Calls `turn` for every turn of the loop (the value of `for`), its variables in scope. */
-void loop_run(struct checker *ck, const struct node *loop, void (*turn)(struct checker *ck, void *context), void *context);
+void loop_run(struct checker *ck, const struct node *loop, void (*turn)(struct checker *ck, void *context),
+              void *context);
 
 /* "-1", "[0.5, 2]" */
 const char *quantity_text(struct arena *arena, const struct quantity *q);
@@ -237,7 +241,8 @@ const char *short_text(struct checker *ck, const char *text);
 int meant_key(const struct grammar_kind *kind, const char *word);
 
 /* The index of the key that was probably meant, or -1. Marks a key under which it belongs as meant. */
-int report_unknown_key(struct checker *ck, const struct grammar_kind *kind, struct mapping *mapping, const struct node *key);
+int report_unknown_key(struct checker *ck, const struct grammar_kind *kind, struct mapping *mapping,
+                       const struct node *key);
 /* `max(1, 2)` within { } or [ ], where YAML ends the value at the comma. Whether it is so, and reported: once,
  * however often it is asked. `what` the value is of; in a list; in the value of a mapping before a key without one. */
 bool report_cut(struct checker *ck, const char *what, const struct node *value);
@@ -245,7 +250,8 @@ bool report_cut_in(struct checker *ck, const char *what, const struct node *list
 bool report_cut_before(struct checker *ck, const struct node *mapping, const struct node *key);
 
 /* Adds what a decimal comma in a mapping was meant to be: in `{radius: 1,5}` the 5 is a key without a value. */
-bool report_help_comma(struct checker *ck, struct diagnostic *d, const struct node *mapping, const struct node *key);
+bool report_help_comma(struct checker *ck, struct diagnostic *d, const struct node *mapping,
+                       const struct node *key);
 
 /* Adds that in `diffuse: #ff0000` the colour is a comment. */
 bool report_help_hash(struct checker *ck, struct diagnostic *d, const struct node *name);
@@ -257,7 +263,8 @@ void report_no_value(struct checker *ck, const struct grammar_key *key, const st
 void report_no_mapping(struct checker *ck, const struct grammar_kind *kind, const struct node *node);
 void report_no_list(struct checker *ck, const struct grammar_key *key, const struct node *node);
 void report_no_map(struct checker *ck, const struct grammar_key *key, const struct node *node);
-void report_no_name(struct checker *ck, const struct grammar_key *key, const struct definitions *among, const struct node *node);
+void report_no_name(struct checker *ck, const struct grammar_key *key, const struct definitions *among,
+                    const struct node *node);
 void report_no_alternative(struct checker *ck, const struct object_value *object);
 
 #endif

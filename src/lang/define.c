@@ -22,18 +22,22 @@ const char *define_name_taken(const char *name) {
 bool define_name_allowed(struct checker *ck, const char *what, const struct node *name) {
     const struct node *n = node_resolve(name);
     if (n->kind != NODE_SCALAR) {
-        diag_error(ck->diag, name->span, "key-not-a-word", "the name of %s is a word, found %s", what, found_text(ck, name));
+        diag_error(ck->diag, name->span, "key-not-a-word", "the name of %s is a word, found %s", what,
+                   found_text(ck, name));
         return false;
     }
-    const char *taken = scope_is_name(n->text) ? define_name_taken(n->text) : "letters, digits and _ make a name, the first no digit";
+    const char *taken = scope_is_name(n->text) ? define_name_taken(n->text)
+                                               : "letters, digits and _ make a name, the first no digit";
     if (!taken) return true;
-    struct diagnostic *d = diag_error(ck->diag, name->span, "bad-name", "%s cannot be named `%s`", what, short_text(ck, n->text));
+    struct diagnostic *d = diag_error(ck->diag, name->span, "bad-name", "%s cannot be named `%s`", what,
+                                      short_text(ck, n->text));
     if (!report_help_glued(ck, d, n->text)) diag_help(ck->diag, d, "%s", taken);
     return false;
 }
 
 static void report_twice(struct checker *ck, const struct node *name, struct span before) {
-    struct diagnostic *d = diag_error(ck->diag, name->span, "defined-twice", "`%s` is defined twice", short_text(ck, node_resolve(name)->text));
+    struct diagnostic *d = diag_error(ck->diag, name->span, "defined-twice", "`%s` is defined twice",
+                                      short_text(ck, node_resolve(name)->text));
     diag_related(ck->diag, d, before, "first defined here");
 }
 
@@ -48,11 +52,15 @@ static struct node *given_from_outside(struct checker *ck, const char *name) {
         const struct source *source = file_from_memory(arena, title, def->value, strlen(def->value));
         const struct node_limits limits = {ck->input->limits.nesting, ck->input->limits.values};
         struct node_problem problem = {0};
-        struct node *node = *def->value && *def->value != '#' ? node_parse(arena, ck->diag, source, &limits, NULL, &problem) : NULL;
+        struct node *node = *def->value && *def->value != '#'
+                                ? node_parse(arena, ck->diag, source, &limits, NULL, &problem)
+                                : NULL;
         if (node) return node;
         if (problem.text) problem_report(ck->diag, &problem);
         node = arena_alloc(arena, sizeof *node); /* a colour, or nothing */
-        *node = (struct node){.span = {source, 0, 0, (uint32_t)strlen(def->value)}, .text = def->value, .count = (uint32_t)strlen(def->value)};
+        *node = (struct node){.span = {source, 0, 0, (uint32_t)strlen(def->value)},
+                              .text = def->value,
+                              .count = (uint32_t)strlen(def->value)};
         return node;
     }
     return NULL;
@@ -124,21 +132,29 @@ static bool is_declaration(const struct node *mapping) {
     for (const struct node *name = mapping->first; name; name = name->next->next) {
         const struct node *word = node_resolve(name);
         if (word->kind != NODE_SCALAR) continue;
-        if (strcmp(word->text, "default") == 0 || strcmp(word->text, "doc") == 0 || meant_key(&grammar_kinds[KIND_PARAM], word->text) == KEY_PARAM_DEFAULT) return true;
+        if (strcmp(word->text, "default") == 0 || strcmp(word->text, "doc") == 0 ||
+            meant_key(&grammar_kinds[KIND_PARAM], word->text) == KEY_PARAM_DEFAULT)
+            return true;
     }
     return false;
 }
 
-bool define_in_range(struct checker *ck, const char *name, const struct node *declared, const struct node *value) {
+bool define_in_range(struct checker *ck, const char *name, const struct node *declared,
+                     const struct node *value) {
     const struct node *n = node_resolve(declared);
     if (n->kind != NODE_MAPPING || !is_declaration(n)) return true;
     const struct object_value *object = check_object(ck, &grammar_kinds[KIND_PARAM], declared);
     if (!object || object->failed) return false;
-    struct grammar_key key = {.name = name, .type = GRAMMAR_NUMBER, .has_min = object_has(object, KEY_PARAM_MIN), .has_max = object_has(object, KEY_PARAM_MAX),
-                              .min = object_number(object, KEY_PARAM_MIN), .max = object_number(object, KEY_PARAM_MAX)};
+    struct grammar_key key = {.name = name,
+                              .type = GRAMMAR_NUMBER,
+                              .has_min = object_has(object, KEY_PARAM_MIN),
+                              .has_max = object_has(object, KEY_PARAM_MAX),
+                              .min = object_number(object, KEY_PARAM_MIN),
+                              .max = object_number(object, KEY_PARAM_MAX)};
     double ignored;
     if (key.has_min && key.has_max && key.min > key.max) {
-        diag_error(ck->diag, object_span(object, KEY_PARAM_MAX), "contradiction", "`%s`: the `max` is less than the `min`", name);
+        diag_error(ck->diag, object_span(object, KEY_PARAM_MAX), "contradiction",
+                   "`%s`: the `max` is less than the `min`", name);
         return false;
     }
     return !(key.has_min || key.has_max) || check_number(ck, &key, value, &ignored);
@@ -148,7 +164,8 @@ static void report_parameter_cycle(struct checker *ck, const struct parameter *p
     enum { MOST = 6 };
     const struct parameter *chain[MOST] = {NULL}; /* from the one that needs p back to p */
     int count = 0;
-    struct diagnostic *d = diag_error(ck->diag, p->span, "definition-cycle", "the parameter `%s` is defined by itself", p->name);
+    struct diagnostic *d =
+        diag_error(ck->diag, p->span, "definition-cycle", "the parameter `%s` is defined by itself", p->name);
     for (const struct parameter *at = ck->parameter; at; at = at == p ? NULL : at->needed_by)
         chain[count++ % MOST] = at;
     for (int i = count; i-- > (count > MOST ? count - MOST : 0);) {
@@ -178,7 +195,8 @@ const struct binding *define_parameter(struct checker *ck, struct parameter *p) 
     ck->parameter = p;
     const bool waited = ck->waiting;
     ck->waiting = false;
-    const bool good = scope_bind(ck, p->name, value, &p->binding) && define_in_range(ck, p->name, p->node, value);
+    const bool good =
+        scope_bind(ck, p->name, value, &p->binding) && define_in_range(ck, p->name, p->node, value);
     ck->parameter = p->needed_by;
     p->state = ck->waiting ? READING_UNREAD : READING_DONE;
     const bool later = ck->waiting;
@@ -192,7 +210,8 @@ const struct binding *define_parameter(struct checker *ck, struct parameter *p) 
 
 /* ---- Materials and templates ---- */
 
-static void declare(struct checker *ck, struct definitions *all, const struct grammar_kind *kind, const struct node *value) {
+static void declare(struct checker *ck, struct definitions *all, const struct grammar_kind *kind,
+                    const struct node *value) {
     const struct node *n = node_resolve(value);
     if (n->kind != NODE_MAPPING) {
         if (all == &ck->materials) ck->names_lost = true;
@@ -200,7 +219,8 @@ static void declare(struct checker *ck, struct definitions *all, const struct gr
     }
     for (const struct node *name = n->first; name; name = name->next->next) {
         if (node_resolve(name)->kind != NODE_SCALAR) {
-            diag_error(ck->diag, name->span, "key-not-a-word", "a key of %s is a word, found %s", kind->title, found_text(ck, name));
+            diag_error(ck->diag, name->span, "key-not-a-word", "a key of %s is a word, found %s", kind->title,
+                       found_text(ck, name));
             continue;
         }
         const struct definition *before = table_find(&all->names, node_resolve(name)->text);
@@ -209,7 +229,11 @@ static void declare(struct checker *ck, struct definitions *all, const struct gr
             continue;
         }
         struct definition *def = arena_alloc(&ck->memory->kept, sizeof *def);
-        *def = (struct definition){.kind = kind, .name = node_resolve(name)->text, .span = name->span, .node = name->next, .number = all->count++};
+        *def = (struct definition){.kind = kind,
+                                   .name = node_resolve(name)->text,
+                                   .span = name->span,
+                                   .node = name->next,
+                                   .number = all->count++};
         table_put(&ck->memory->kept, &all->names, def->name, def);
         if (!all->first) all->end = &all->first;
         *all->end = def;
@@ -219,15 +243,19 @@ static void declare(struct checker *ck, struct definitions *all, const struct gr
 
 /* The template as its author wrote it, with any values of its parameters: so that no slip in it waits
  * for somebody to use it. */
-static void rehearse_template(struct checker *ck, const struct node *node, const struct object_value *template) {
-    const struct value *parameters = template->fields[KEY_TEMPLATE_PARAMS], *objects = template->fields[KEY_TEMPLATE_OBJECTS];
+static void rehearse_template(struct checker *ck, const struct node *node,
+                              const struct object_value *template) {
+    const struct value *parameters = template->fields[KEY_TEMPLATE_PARAMS],
+                       *objects = template->fields[KEY_TEMPLATE_OBJECTS];
     const struct node *declared = parameters ? node_resolve(parameters->node) : NULL;
-    if (!parameters && node_resolve(node)->kind == NODE_MAPPING && node_get(node_resolve(node), "params")) return; /* reported: its names are not known */
+    if (!parameters && node_resolve(node)->kind == NODE_MAPPING && node_get(node_resolve(node), "params"))
+        return; /* reported: its names are not known */
     const bool lost = ck->variables_lost;
     struct arena *kept = ck->arena;
     ck->arena = &ck->memory->scratch;
     const struct arena_mark before = arena_mark(ck->arena);
-    struct binding *bindings = arena_array(ck->arena, declared && declared->count ? declared->count : 1, sizeof *bindings);
+    struct binding *bindings =
+        arena_array(ck->arena, declared && declared->count ? declared->count : 1, sizeof *bindings);
     struct scope scope = {NULL, bindings, 0};
     ck->rehearsing = true;
     for (const struct node *name = declared ? declared->first : NULL; name; name = name->next->next) {
@@ -253,7 +281,8 @@ static void rehearse_template(struct checker *ck, const struct node *node, const
 /* Whether each parameter of the template has a name and a value; where not, it is reported elsewhere. */
 static bool parameters_good(const struct object_value *template) {
     const struct value *parameters = template->fields[KEY_TEMPLATE_PARAMS];
-    for (const struct node *name = parameters ? node_resolve(parameters->node)->first : NULL; name; name = name->next->next) {
+    for (const struct node *name = parameters ? node_resolve(parameters->node)->first : NULL; name;
+         name = name->next->next) {
         const struct node *n = node_resolve(name);
         if (node_is_null(name->next) || n->kind != NODE_SCALAR || !scope_is_name(n->text)) return false;
     }
@@ -268,11 +297,13 @@ static struct object_value *failed_object(struct checker *ck, const struct defin
 }
 
 static void report_extends_cycle(struct checker *ck, const struct definition *def) {
-    struct diagnostic *d = diag_error(ck->diag, def->span, "definition-cycle", "the material `%s` extends itself", short_text(ck, def->name));
+    struct diagnostic *d = diag_error(ck->diag, def->span, "definition-cycle",
+                                      "the material `%s` extends itself", short_text(ck, def->name));
     const struct definition *at = def;
     for (int i = 0; at && i < 6 && (at != def || i == 0); i++) {
         const struct node *base = node_get(node_resolve(at->node), "extends");
-        diag_related(ck->diag, d, base->span, "`%s` extends `%s`", short_text(ck, at->name), short_text(ck, node_resolve(base)->text));
+        diag_related(ck->diag, d, base->span, "`%s` extends `%s`", short_text(ck, at->name),
+                     short_text(ck, node_resolve(base)->text));
         at = table_find(&ck->materials.names, node_resolve(base)->text);
     }
 }
@@ -292,7 +323,8 @@ struct object_value *define_read(struct checker *ck, struct definition *def) {
     def->state = READING_UNDER_WAY;
     def->object = check_object(ck, def->kind, def->node);
     if (!def->object) def->object = failed_object(ck, def);
-    if (def->kind == &grammar_kinds[KIND_TEMPLATE] && !ck->waiting) rehearse_template(ck, def->node, def->object);
+    if (def->kind == &grammar_kinds[KIND_TEMPLATE] && !ck->waiting)
+        rehearse_template(ck, def->node, def->object);
     def->object->failed |= ck->diag->errors != errors; /* what was told before is not counted again */
     if (def->kind == &grammar_kinds[KIND_TEMPLATE]) def->object->failed |= !parameters_good(def->object);
     def->object->name = def->name;
@@ -317,7 +349,8 @@ static void read_all(struct checker *ck, struct definitions *all) {
 struct definitions *define_presets(struct checker *ck) {
     if (ck->presets.first) return &ck->presets;
     struct arena *arena = &ck->memory->kept;
-    const struct source *source = file_from_memory(arena, "presets.yaml", grammar_presets, strlen(grammar_presets));
+    const struct source *source =
+        file_from_memory(arena, "presets.yaml", grammar_presets, strlen(grammar_presets));
     const struct node_limits limits = {20, 100000};
     struct node_problem problem = {0};
     const struct node *root = node_parse(arena, ck->diag, source, &limits, NULL, &problem);
@@ -331,22 +364,30 @@ static void read_animation(struct checker *ck, const struct node *value) {
     if (!place_descend(ck, value->span)) return;
     const struct elsewhere here = leave(ck);
     const struct object_value *animation = check_object(ck, &grammar_kinds[KIND_ANIMATION], value);
-    if (animation && !animation->failed) ck->animation = animation;
-    else ck->variables_lost = true;
+    if (animation && !animation->failed)
+        ck->animation = animation;
+    else
+        ck->variables_lost = true;
     come_back(ck, &here);
 }
 
-static void declare_pair(struct checker *ck, const struct unit *unit, const char *word, const struct node *value) {
+static void declare_pair(struct checker *ck, const struct unit *unit, const char *word,
+                         const struct node *value) {
     if (node_is_null(value)) {
         ck->names_lost |= strcmp(word, "materials") == 0;
         ck->variables_lost |= strcmp(word, "params") == 0;
         return;
     }
-    if (strcmp(word, "params") == 0) declare_parameters(ck, value);
-    else if (strcmp(word, "define") == 0) declare(ck, &ck->templates, &grammar_kinds[KIND_TEMPLATE], value);
-    else if (strcmp(word, "materials") == 0) declare(ck, &ck->materials, &grammar_kinds[KIND_MATERIAL], value);
-    else if (strcmp(word, "include") == 0) include_files(ck, unit, value);
-    else if (strcmp(word, "animation") == 0 && !unit->includer && !ck->animation) read_animation(ck, value);
+    if (strcmp(word, "params") == 0)
+        declare_parameters(ck, value);
+    else if (strcmp(word, "define") == 0)
+        declare(ck, &ck->templates, &grammar_kinds[KIND_TEMPLATE], value);
+    else if (strcmp(word, "materials") == 0)
+        declare(ck, &ck->materials, &grammar_kinds[KIND_MATERIAL], value);
+    else if (strcmp(word, "include") == 0)
+        include_files(ck, unit, value);
+    else if (strcmp(word, "animation") == 0 && !unit->includer && !ck->animation)
+        read_animation(ck, value);
 }
 
 /* The names under a misspelt key are known all the same: the key alone is reported. */
@@ -360,7 +401,8 @@ void define_names(struct checker *ck, struct unit *unit) {
     if (unit->root->kind != NODE_MAPPING) return;
     const struct node *name = unit->declared ? unit->declared->next->next : unit->root->first;
     for (; name; name = name->next->next) {
-        if (node_resolve(name)->kind == NODE_SCALAR) declare_pair(ck, unit, meant_word(node_resolve(name)->text), name->next);
+        if (node_resolve(name)->kind == NODE_SCALAR)
+            declare_pair(ck, unit, meant_word(node_resolve(name)->text), name->next);
         unit->declared = name;
     }
     if (unit->includer) return; /* read with those of the scene */
@@ -380,7 +422,9 @@ static void warn_unused(struct checker *ck, const struct definitions *all) {
     for (const struct definition *def = all->first; def; def = def->next)
         if (!def->used && def->span.source == ck->input->source) {
             const char *title = def->kind->title;
-            struct diagnostic *d = diag_warning(ck->diag, def->span, "unused-definition", "the %s `%s` is never used", strchr(title, ' ') + 1, short_text(ck, def->name));
+            struct diagnostic *d =
+                diag_warning(ck->diag, def->span, "unused-definition", "the %s `%s` is never used",
+                             strchr(title, ' ') + 1, short_text(ck, def->name));
             diag_help(ck->diag, d, "use it, or remove it");
         }
 }
@@ -393,20 +437,26 @@ static void report_unknown_parameter(struct checker *ck, const char *name) {
         all = append_name(ck, all, p->name);
     }
     struct span nowhere = {ck->input->source, 0, 0, 1};
-    struct diagnostic *d = diag_error(ck->diag, nowhere, "unknown-parameter", "the scene has no parameter `%s` to set by -D", short_text(ck, name));
+    struct diagnostic *d = diag_error(ck->diag, nowhere, "unknown-parameter",
+                                      "the scene has no parameter `%s` to set by -D", short_text(ck, name));
     if (s.best) diag_help(ck->diag, d, "did you mean `%s`?", s.best);
-    diag_note(ck->diag, d, *all ? "its parameters: %s" : "it has none: `params: {%s: 1}` makes one", *all ? all : short_text(ck, name));
+    diag_note(ck->diag, d, *all ? "its parameters: %s" : "it has none: `params: {%s: 1}` makes one",
+              *all ? all : short_text(ck, name));
 }
 
 void define_check_given(struct checker *ck) {
     for (size_t i = 0; i < ck->input->define_count; i++)
-        if (!table_find(&ck->parameters, ck->input->defines[i].name)) report_unknown_parameter(ck, ck->input->defines[i].name);
+        if (!table_find(&ck->parameters, ck->input->defines[i].name))
+            report_unknown_parameter(ck, ck->input->defines[i].name);
 }
 
 void define_warn_unused(struct checker *ck) {
     for (const struct parameter *p = ck->first_parameter; p; p = p->next)
         if (!p->used && p->span.source == ck->input->source)
-            diag_help(ck->diag, diag_warning(ck->diag, p->span, "unused-definition", "the parameter `%s` is never used", p->name), "use it, or remove it");
+            diag_help(ck->diag,
+                      diag_warning(ck->diag, p->span, "unused-definition", "the parameter `%s` is never used",
+                                   p->name),
+                      "use it, or remove it");
     warn_unused(ck, &ck->materials);
     warn_unused(ck, &ck->templates);
 }

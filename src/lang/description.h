@@ -26,14 +26,14 @@ struct object_list {
 struct value {
     struct span span; /* of the value, not the key */
     union {
-        double number;               /* number, integer */
-        int choice;                  /* choice, boolean */
-        vec3 vector;                 /* point, direction, factors, color (linear), amount, size (x, y) */
-        const affine *matrix;        /* matrix */
-        const char *text;            /* text */
-        struct object_value *object; /* object; color or amount where is_object */
-        struct object_list list;     /* list, but of objects */
-        const struct node *node;     /* lang/: list of objects, any, values, ranges, condition, files */
+        double number;                 /* number, integer */
+        int choice;                    /* choice, boolean */
+        vec3 vector;                   /* point, direction, factors, color (linear), amount, size (x, y) */
+        const affine *matrix;          /* matrix */
+        const char *text;              /* text */
+        struct object_value *object;   /* object; color or amount where is_object */
+        struct object_list list;       /* list, but of objects */
+        const struct node *node;       /* lang/: list of objects, any, values, ranges, condition, files */
         struct definition *definition; /* lang/: name */
     };
     bool is_object; /* a mapping stands where a colour might */
@@ -43,9 +43,9 @@ struct value {
 struct object_value {
     const struct grammar_kind *kind;
     struct span span;
-    const char *name;      /* of a definition, else NULL */
-    uint32_t definition;   /* of a definition: its number among its kind, from 0 */
-    bool failed;           /* some key of it was reported as wrong; its field is NULL. Of the file: anything in it */
+    const char *name;    /* of a definition, else NULL */
+    uint32_t definition; /* of a definition: its number among its kind, from 0 */
+    bool failed; /* some key of it was reported as wrong; its field is NULL. Of the file: anything in it */
     struct value **fields; /* kind->key_count; NULL where not given */
 };
 
@@ -55,13 +55,14 @@ bool object_has(const struct object_value *object, int key);
 double object_number(const struct object_value *object, int key); /* also integers */
 int object_choice(const struct object_value *object, int key);    /* also booleans: 0 or 1 */
 vec3 object_vec3(const struct object_value *object, int key);
-const char *object_text(const struct object_value *object, int key);            /* NULL: not given */
+const char *object_text(const struct object_value *object, int key); /* NULL: not given */
 /* The name of a definition that a key of type name gives, and its number among its kind; NULL: not given. */
 const char *object_reference(const struct object_value *object, int key, uint32_t *number);
 /* The names in a value of type ranges or values, as "i, j", in the arena; NULL: not given. */
 const char *object_names(struct arena *arena, const struct object_value *object, int key);
-const affine *object_matrix(const struct object_value *object, int key);        /* NULL: not given */
-struct object_value *object_object(const struct object_value *object, int key); /* NULL: not given, or not a mapping */
+const affine *object_matrix(const struct object_value *object, int key); /* NULL: not given */
+struct object_value *object_object(const struct object_value *object,
+                                   int key); /* NULL: not given, or not a mapping */
 struct object_list object_list(const struct object_value *object, int key);
 
 /* Of the value; of the object where it is not given. */

@@ -109,7 +109,8 @@ static bool parse_list(struct parser *p, struct token opener, int closer, const 
     return slip(p, p->token.offset, p->token.length, "wrong-arguments", "32 values are the most", NULL);
 }
 
-static bool wrong_arguments(struct parser *p, struct token name, const struct grammar_function *f, unsigned count) {
+static bool wrong_arguments(struct parser *p, struct token name, const struct grammar_function *f,
+                            unsigned count) {
     const char *many = f->least == f->most ? "" : count < f->least ? "at least " : "at most ";
     const unsigned wanted = count < f->least ? f->least : f->most;
     return slip(p, name.offset, name.length, "wrong-arguments",
@@ -140,9 +141,11 @@ static const struct term *parse_call(struct parser *p, struct token name) {
 /* The constant or colour of that name; count 0: there is none. */
 static struct quantity named_value(const char *name) {
     for (int i = 0; i < grammar_constant_count; i++)
-        if (strcmp(name, grammar_constants[i].name) == 0) return (struct quantity){1, {grammar_constants[i].value}};
+        if (strcmp(name, grammar_constants[i].name) == 0)
+            return (struct quantity){1, {grammar_constants[i].value}};
     vec3 color;
-    return color_parse(name, &color) ? (struct quantity){3, {color.x, color.y, color.z}} : (struct quantity){0};
+    return color_parse(name, &color) ? (struct quantity){3, {color.x, color.y, color.z}}
+                                     : (struct quantity){0};
 }
 
 /* name | name "(" [choice {"," choice}] ")" */
@@ -203,7 +206,8 @@ static const struct term *parse_letter(struct parser *p, const struct term *of) 
         return NULL;
     }
     const struct token name = p->token;
-    return lexer_next(p) ? make_value(p, name, (struct quantity){1, {(double)((letter - letters) % 3)}}) : NULL;
+    return lexer_next(p) ? make_value(p, name, (struct quantity){1, {(double)((letter - letters) % 3)}})
+                         : NULL;
 }
 
 /* "[" choice "]" */
@@ -332,4 +336,6 @@ struct expr *expr_parse(struct arena *arena, const char *text, size_t size, stru
     return expr;
 }
 
-const char *expr_name(const struct expr *expr) { return expr->root->kind == TERM_NAME ? expr->root->name : NULL; }
+const char *expr_name(const struct expr *expr) {
+    return expr->root->kind == TERM_NAME ? expr->root->name : NULL;
+}

@@ -66,7 +66,8 @@ static const char *help_name(const struct evaluation *e, const char *name) {
     struct names names = {.spelling = spelling_begin(name)};
     const char *call = NULL, *instead = word_instead(e->arena, name);
     e->scope->names(e->scope->context, collect, &names);
-    for (int i = 0; i < grammar_constant_count; i++) spelling_offer(&names.spelling, grammar_constants[i].name);
+    for (int i = 0; i < grammar_constant_count; i++)
+        spelling_offer(&names.spelling, grammar_constants[i].name);
     for (int i = 0; i < grammar_function_count; i++) {
         const char *before = names.spelling.best;
         spelling_offer(&names.spelling, grammar_functions[i].name);
@@ -75,9 +76,11 @@ static const char *help_name(const struct evaluation *e, const char *name) {
     const unsigned distance = names.spelling.distance;
     if (call && distance == 0) return arena_format(e->arena, "it is a function: write `%s`", call);
     if (instead && (!names.spelling.best || distance > 0)) return instead;
-    if (names.spelling.best) return arena_format(e->arena, "did you mean `%s`?", call ? call : names.spelling.best);
+    if (names.spelling.best)
+        return arena_format(e->arena, "did you mean `%s`?", call ? call : names.spelling.best);
     for (int i = 0; i < grammar_color_count; i++) spelling_offer(&names.spelling, grammar_colors[i].name);
-    if (names.spelling.best) return arena_format(e->arena, "did you mean the colour `%s`?", names.spelling.best);
+    if (names.spelling.best)
+        return arena_format(e->arena, "did you mean the colour `%s`?", names.spelling.best);
     return names_in_scope(e, &names);
 }
 
@@ -94,7 +97,8 @@ enum expr_result wrong_kind(const struct evaluation *e, const struct term *term)
 
 /* ---- Values ---- */
 
-enum expr_result wrong_count(const struct evaluation *e, const struct term *term, const struct quantity *value) {
+enum expr_result wrong_count(const struct evaluation *e, const struct term *term,
+                             const struct quantity *value) {
     struct term whole = *term;
     whole.offset = term->begin;
     whole.length = term->end - term->begin;
@@ -114,18 +118,20 @@ enum expr_result wrong_pair(const struct evaluation *e, const struct term *term,
 }
 
 /* "`n - 3` is 0"; of a number that is written there nothing need be said. */
-static const char *which_is(const struct evaluation *e, const struct term *term, const struct quantity *value) {
+static const char *which_is(const struct evaluation *e, const struct term *term,
+                            const struct quantity *value) {
     return term->kind == TERM_VALUE
                ? ""
                : arena_format(e->arena, ": %s is %s", term_text(e, term), value_text(e, value));
 }
 
-enum expr_result wrong_arithmetic(const struct evaluation *e, const struct term *term, const struct quantity *a,
-                                  const struct quantity *b, bool none) {
+enum expr_result wrong_arithmetic(const struct evaluation *e, const struct term *term,
+                                  const struct quantity *a, const struct quantity *b, bool none) {
     if (none && term->symbol != '^')
         return wrong(e, term, "division-by-zero",
                      arena_format(e->arena, "division by zero%s", which_is(e, term->parts[1], b)), NULL);
-    const char *calculation = arena_format(e->arena, "%s %c %s", value_text(e, a), term->symbol, value_text(e, b));
+    const char *calculation =
+        arena_format(e->arena, "%s %c %s", value_text(e, a), term->symbol, value_text(e, b));
     if (!none)
         return wrong(e, term, "not-finite",
                      arena_format(e->arena, "%s is too large: numbers end at 1.8e308", calculation), NULL);
@@ -169,13 +175,15 @@ static const char *arguments_text(const struct evaluation *e, const struct quant
 enum expr_result wrong_call(const struct evaluation *e, const struct term *term, const struct quantity *args,
                             enum function_result why) {
     const struct grammar_function *f = &grammar_functions[term->symbol];
-    const char *of = arguments_text(e, args, term->count, why == FUNCTION_DIFFERENT || why == FUNCTION_COUNTS);
+    const char *of =
+        arguments_text(e, args, term->count, why == FUNCTION_DIFFERENT || why == FUNCTION_COUNTS);
     const char *what = arena_format(e->arena, "%s of %s", f->name, of);
     const char *doc = arena_format(e->arena, "%s: %s", f->call, f->doc);
     if (why == FUNCTION_DIFFERENT) return wrong(e, term, "different-counts", what, doc);
     if (why == FUNCTION_COUNTS) return wrong(e, term, "wrong-arguments", what, doc);
     if (why == FUNCTION_OUTSIDE && f->domain)
-        return wrong(e, term, "outside-domain", what, arena_format(e->arena, "%s takes %s", f->name, f->domain));
+        return wrong(e, term, "outside-domain", what,
+                     arena_format(e->arena, "%s takes %s", f->name, f->domain));
     return wrong(e, term, "not-finite",
                  arena_format(e->arena, "%s is too large: numbers end at 1.8e308", what), NULL);
 }

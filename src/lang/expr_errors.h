@@ -18,13 +18,14 @@ enum expr_result wrong_name(const struct evaluation *e, const struct term *term)
 enum expr_result wrong_kind(const struct evaluation *e, const struct term *term);
 
 /* A vector where a number is expected. */
-enum expr_result wrong_count(const struct evaluation *e, const struct term *term, const struct quantity *value);
+enum expr_result wrong_count(const struct evaluation *e, const struct term *term,
+                             const struct quantity *value);
 
 /* An operator between vectors of different counts; one whose result is none, or (not `none`) too large. */
 enum expr_result wrong_pair(const struct evaluation *e, const struct term *term, const struct quantity *a,
                             const struct quantity *b);
-enum expr_result wrong_arithmetic(const struct evaluation *e, const struct term *term, const struct quantity *a,
-                                  const struct quantity *b, bool none);
+enum expr_result wrong_arithmetic(const struct evaluation *e, const struct term *term,
+                                  const struct quantity *a, const struct quantity *b, bool none);
 
 /* A part of what has none, or that it has not. */
 enum expr_result wrong_part(const struct evaluation *e, const struct term *term, const struct quantity *whole,

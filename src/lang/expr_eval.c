@@ -17,7 +17,8 @@ static enum expr_result evaluate_number(const struct evaluation *e, const struct
     return result;
 }
 
-static enum expr_result evaluate_name(const struct evaluation *e, const struct term *term, struct quantity *out) {
+static enum expr_result evaluate_name(const struct evaluation *e, const struct term *term,
+                                      struct quantity *out) {
     switch (e->scope->find(e->scope->context, term->name, out)) {
     case EXPR_FOUND: return EXPR_OK;
     case EXPR_LATER: return EXPR_WAIT;
@@ -29,7 +30,8 @@ static enum expr_result evaluate_name(const struct evaluation *e, const struct t
     return EXPR_OK;
 }
 
-static enum expr_result evaluate_unary(const struct evaluation *e, const struct term *term, struct quantity *out) {
+static enum expr_result evaluate_unary(const struct evaluation *e, const struct term *term,
+                                       struct quantity *out) {
     double condition = 0.0;
     const enum expr_result result = term->symbol == '!' ? evaluate_number(e, term->parts[0], &condition)
                                                         : evaluate(e, term->parts[0], out);
@@ -40,7 +42,8 @@ static enum expr_result evaluate_unary(const struct evaluation *e, const struct 
     return EXPR_OK;
 }
 
-static enum expr_result evaluate_logic(const struct evaluation *e, const struct term *term, struct quantity *out) {
+static enum expr_result evaluate_logic(const struct evaluation *e, const struct term *term,
+                                       struct quantity *out) {
     double a = 0.0, b = 0.0;
     enum expr_result result = evaluate_number(e, term->parts[0], &a);
     if (result != EXPR_OK) return result;
@@ -98,21 +101,30 @@ static enum expr_result evaluate_arithmetic(const struct evaluation *e, const st
     return EXPR_OK;
 }
 
-static enum expr_result evaluate_binary(const struct evaluation *e, const struct term *term, struct quantity *out) {
+static enum expr_result evaluate_binary(const struct evaluation *e, const struct term *term,
+                                        struct quantity *out) {
     switch (term->symbol) {
-    case '+': case '-': case '*': case '/': case '%': case '^': return evaluate_arithmetic(e, term, out);
-    case SYMBOL('&', '&'): case SYMBOL('|', '|'): return evaluate_logic(e, term, out);
+    case '+':
+    case '-':
+    case '*':
+    case '/':
+    case '%':
+    case '^': return evaluate_arithmetic(e, term, out);
+    case SYMBOL('&', '&'):
+    case SYMBOL('|', '|'): return evaluate_logic(e, term, out);
     default: return evaluate_comparison(e, term, out);
     }
 }
 
-static enum expr_result evaluate_choice(const struct evaluation *e, const struct term *term, struct quantity *out) {
+static enum expr_result evaluate_choice(const struct evaluation *e, const struct term *term,
+                                        struct quantity *out) {
     double condition = 0.0;
     const enum expr_result result = evaluate_number(e, term->parts[0], &condition);
     return result == EXPR_OK ? evaluate(e, term->parts[condition != 0.0 ? 1 : 2], out) : result;
 }
 
-static enum expr_result evaluate_part(const struct evaluation *e, const struct term *term, struct quantity *out) {
+static enum expr_result evaluate_part(const struct evaluation *e, const struct term *term,
+                                      struct quantity *out) {
     struct quantity whole;
     double index = 0.0;
     enum expr_result result = evaluate(e, term->parts[0], &whole);
@@ -124,7 +136,8 @@ static enum expr_result evaluate_part(const struct evaluation *e, const struct t
     return EXPR_OK;
 }
 
-static enum expr_result evaluate_vector(const struct evaluation *e, const struct term *term, struct quantity *out) {
+static enum expr_result evaluate_vector(const struct evaluation *e, const struct term *term,
+                                        struct quantity *out) {
     enum expr_result result = EXPR_OK;
     for (unsigned i = 0; i < term->count && result == EXPR_OK; i++)
         result = evaluate_number(e, term->parts[i], &out->v[i]);
@@ -132,7 +145,8 @@ static enum expr_result evaluate_vector(const struct evaluation *e, const struct
     return result;
 }
 
-static enum expr_result evaluate_call(const struct evaluation *e, const struct term *term, struct quantity *out) {
+static enum expr_result evaluate_call(const struct evaluation *e, const struct term *term,
+                                      struct quantity *out) {
     struct quantity args[FUNCTION_ARGUMENTS];
     for (unsigned i = 0; i < term->count; i++) {
         const enum expr_result result = evaluate(e, term->parts[i], &args[i]);

@@ -74,7 +74,7 @@ static bool take(struct parser *p, enum token_kind kind, int symbol, const char 
 
 /* 0x1F, 0o17, 0b11; 010, which is 8 to some readers and 10 to others; 1_000. */
 static bool slip_number(struct parser *p, const char *start, const char *end) {
-    const int base = start[0] != '0'                    ? 0
+    const int base = start[0] != '0'                      ? 0
                      : start[1] == 'x' || start[1] == 'X' ? 16
                      : start[1] == 'o'                    ? 8
                      : start[1] == 'b'                    ? 2
@@ -83,7 +83,8 @@ static bool slip_number(struct parser *p, const char *start, const char *end) {
         char *last;
         const unsigned long long value = strtoull(start + 2, &last, base);
         const char *help = last > start + 2 ? arena_format(p->arena, "write %llu", value) : NULL;
-        return slip(p, p->token.offset, (size_t)(last - start), "bad-expression", "numbers are decimal", help);
+        return slip(p, p->token.offset, (size_t)(last - start), "bad-expression", "numbers are decimal",
+                    help);
     }
     if (start[0] == '0' && is_digit(start[1])) {
         while (start + 1 < end && *start == '0' && is_digit(start[1])) start++;
@@ -111,7 +112,8 @@ static bool lex_number(struct parser *p, const char *start) {
     const char *exponent = c + 1 + (c[0] && (c[1] == '+' || c[1] == '-'));
     if ((*c == 'e' || *c == 'E') && is_digit(*exponent))
         for (c = exponent; is_digit(*c);) c++;
-    const bool leading_zero = start[0] == '0' && (is_digit(start[1]) || (start[1] && strchr("xXob", start[1])));
+    const bool leading_zero =
+        start[0] == '0' && (is_digit(start[1]) || (start[1] && strchr("xXob", start[1])));
     if (leading_zero || (*whole_end == '_' && is_digit(whole_end[1]))) return slip_number(p, start, c);
     return take(p, TOKEN_NUMBER, 0, c);
 }

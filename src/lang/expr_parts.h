@@ -65,7 +65,8 @@ bool lexer_next(struct parser *p);
 /* ---- expr_slips.c: what is wrong, and the smallest fix ---- */
 
 /* Tells an error at bytes of the text; false, for returning. */
-bool slip(struct parser *p, size_t offset, size_t length, const char *code, const char *message, const char *help);
+bool slip(struct parser *p, size_t offset, size_t length, const char *code, const char *message,
+          const char *help);
 
 /* What the text has there, or its beginning and `...`, in backticks: for messages. */
 const char *text_shown(struct arena *arena, const char *text, uint32_t begin, uint32_t end);

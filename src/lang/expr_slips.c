@@ -4,7 +4,8 @@
 #include "lang/expr_parts.h"
 #include "lang/grammar.h"
 
-bool slip(struct parser *p, size_t offset, size_t length, const char *code, const char *message, const char *help) {
+bool slip(struct parser *p, size_t offset, size_t length, const char *code, const char *message,
+          const char *help) {
     *p->error = (struct expr_error){offset, length, code, message, help};
     return false;
 }
@@ -48,14 +49,30 @@ static bool is_word(const struct parser *p, struct token token, const char *word
 static const struct {
     const char *word, *instead;
 } words[] = {
-    {"and", "write `&&`"},  {"or", "write `||`"}, {"not", "write `!`"},  {"xor", "write `!=`"},
-    {"is", "write `==`"},   {"mod", "write `%`"}, {"div", "write `/`"},  {"if", "write `condition ? this : that`"},
-    {"range", "a range is written {from: 0, to: 3}"}, {"then", "write `condition ? this : that`"},  {"else", "write `condition ? this : that`"},
-    {"fract", "write `x % 1`"}, {"frac", "write `x % 1`"}, {"saturate", "write `clamp(x, 0, 1)`"},
-    {"square", "write `x ^ 2`"}, {"sqr", "write `x ^ 2`"}, {"cbrt", "write `x ^ (1/3)`"},
-    {"radians", "angles are in degrees: leave it out"}, {"degrees", "angles are in degrees: leave it out"},
-    {"deg2rad", "angles are in degrees: leave it out"}, {"rad2deg", "angles are in degrees: leave it out"},
-    {"vec2", "write `[x, y]`"}, {"vec3", "write `[x, y, z]`"}, {"vec4", "write `[x, y, z, w]`"},
+    {"and", "write `&&`"},
+    {"or", "write `||`"},
+    {"not", "write `!`"},
+    {"xor", "write `!=`"},
+    {"is", "write `==`"},
+    {"mod", "write `%`"},
+    {"div", "write `/`"},
+    {"if", "write `condition ? this : that`"},
+    {"range", "a range is written {from: 0, to: 3}"},
+    {"then", "write `condition ? this : that`"},
+    {"else", "write `condition ? this : that`"},
+    {"fract", "write `x % 1`"},
+    {"frac", "write `x % 1`"},
+    {"saturate", "write `clamp(x, 0, 1)`"},
+    {"square", "write `x ^ 2`"},
+    {"sqr", "write `x ^ 2`"},
+    {"cbrt", "write `x ^ (1/3)`"},
+    {"radians", "angles are in degrees: leave it out"},
+    {"degrees", "angles are in degrees: leave it out"},
+    {"deg2rad", "angles are in degrees: leave it out"},
+    {"rad2deg", "angles are in degrees: leave it out"},
+    {"vec2", "write `[x, y]`"},
+    {"vec3", "write `[x, y, z]`"},
+    {"vec4", "write `[x, y, z, w]`"},
 };
 
 const char *word_instead(struct arena *arena, const char *word) {
@@ -135,15 +152,18 @@ static const char *closer_of(const struct parser *p, struct token opener) {
 }
 
 bool slip_after_value(struct parser *p, struct token opener) {
-    if (p->token.kind == TOKEN_END || (opener.length && (is_symbol(p->token, ')') || is_symbol(p->token, ']'))))
+    if (p->token.kind == TOKEN_END ||
+        (opener.length && (is_symbol(p->token, ')') || is_symbol(p->token, ']'))))
         return bad(p, opener, arena_format(p->arena, "this %s is not closed", token_text(p, opener)),
-                   arena_format(p->arena, "add `%s`%s%s", closer_of(p, opener), p->token.length ? " before " : "",
+                   arena_format(p->arena, "add `%s`%s%s", closer_of(p, opener),
+                                p->token.length ? " before " : "",
                                 p->token.length ? token_text(p, p->token) : ""));
     if (is_symbol(p->token, ')') || is_symbol(p->token, ']'))
         return bad(p, p->token,
                    arena_format(p->arena, "nothing is open that %s could close", token_text(p, p->token)),
                    "leave it out");
-    if (is_symbol(p->token, ':')) return bad(p, p->token, "`:` without `?`", "write `condition ? this : that`");
+    if (is_symbol(p->token, ':'))
+        return bad(p, p->token, "`:` without `?`", "write `condition ? this : that`");
     const char *expected =
         opener.length ? arena_format(p->arena, "an operator or `%s`", closer_of(p, opener)) : "an operator";
     return bad(p, p->token,

@@ -7,7 +7,8 @@
 const struct source *file_from_memory(struct arena *arena, const char *name, const char *text, size_t size) {
     const bool marked = size >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0;
     struct source *source = arena_alloc(arena, sizeof *source);
-    *source = (struct source){arena_text(arena, name, strlen(name)), marked ? text + 3 : text, marked ? size - 3 : size};
+    *source = (struct source){arena_text(arena, name, strlen(name)), marked ? text + 3 : text,
+                              marked ? size - 3 : size};
     return source;
 }
 
@@ -32,7 +33,8 @@ static char *read_all(struct arena *arena, FILE *in, size_t size, size_t limit, 
     return text;
 }
 
-static const struct source *read_stream(struct arena *arena, struct diagnostics *diag, const char *name, FILE *in, size_t limit) {
+static const struct source *read_stream(struct arena *arena, struct diagnostics *diag, const char *name,
+                                        FILE *in, size_t limit) {
     struct stat info;
     const bool regular = fstat(fileno(in), &info) == 0 && S_ISREG(info.st_mode) && info.st_size > 0;
     size_t size = regular ? (size_t)info.st_size : 0;
@@ -42,12 +44,16 @@ static const struct source *read_stream(struct arena *arena, struct diagnostics 
         *source = (struct source){arena_text(arena, name, strlen(name)), text, size};
         return source;
     }
-    if (size > limit) diag_failure(diag, "limit-file-bytes", "%s: longer than %zu bytes (the limit `file_bytes`)", name, limit);
-    else diag_failure(diag, "cannot-read", "cannot read %s: %s", name, strerror(errno));
+    if (size > limit)
+        diag_failure(diag, "limit-file-bytes", "%s: longer than %zu bytes (the limit `file_bytes`)", name,
+                     limit);
+    else
+        diag_failure(diag, "cannot-read", "cannot read %s: %s", name, strerror(errno));
     return NULL;
 }
 
-const struct source *file_read_bytes(struct arena *arena, struct diagnostics *diag, const char *path, size_t limit) {
+const struct source *file_read_bytes(struct arena *arena, struct diagnostics *diag, const char *path,
+                                     size_t limit) {
     if (strcmp(path, "-") == 0) return read_stream(arena, diag, "<stdin>", stdin, limit);
     FILE *in = fopen(path, "rb");
     if (!in) {
@@ -65,7 +71,8 @@ const struct source *file_read_bytes(struct arena *arena, struct diagnostics *di
     return source;
 }
 
-const struct source *file_read(struct arena *arena, struct diagnostics *diag, const char *path, size_t limit) {
+const struct source *file_read(struct arena *arena, struct diagnostics *diag, const char *path,
+                               size_t limit) {
     const struct source *source = file_read_bytes(arena, diag, path, limit);
     return source ? file_from_memory(arena, source->name, source->text, source->size) : NULL;
 }

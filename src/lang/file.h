@@ -9,7 +9,8 @@
 const struct source *file_read(struct arena *arena, struct diagnostics *diag, const char *path, size_t limit);
 
 /* The same with every byte, a byte order mark too. */
-const struct source *file_read_bytes(struct arena *arena, struct diagnostics *diag, const char *path, size_t limit);
+const struct source *file_read_bytes(struct arena *arena, struct diagnostics *diag, const char *path,
+                                     size_t limit);
 
 /* As file_read, of a text in memory, which must outlive the source. */
 const struct source *file_from_memory(struct arena *arena, const char *name, const char *text, size_t size);

@@ -104,11 +104,13 @@ static enum function_result call_cross(const struct quantity *args, unsigned cou
     (void)count;
     if (args[0].count != 3 || args[1].count != 3) return FUNCTION_COUNTS;
     const double *a = args[0].v, *b = args[1].v;
-    *out = (struct quantity){3, {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}};
+    *out = (struct quantity){
+        3, {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}};
     return FUNCTION_DONE;
 }
 
-static enum function_result call_normalize(const struct quantity *args, unsigned count, struct quantity *out) {
+static enum function_result call_normalize(const struct quantity *args, unsigned count,
+                                           struct quantity *out) {
     (void)count;
     if (args->count < 2) return FUNCTION_COUNTS;
     struct quantity way = *args;

@@ -16,7 +16,8 @@ enum function_result {
 enum { FUNCTION_ARGUMENTS = 32 }; /* of one call, at most */
 
 /* `count` arguments, as many as the function takes. *out may be infinite: too large for a number. */
-enum function_result function_call(int function, const struct quantity *args, unsigned count, struct quantity *out);
+enum function_result function_call(int function, const struct quantity *args, unsigned count,
+                                   struct quantity *out);
 
 /* How many parts `a` and `b` have together, part by part; 0: their counts do not fit. */
 static inline unsigned quantity_join(const struct quantity *a, const struct quantity *b) {
@@ -24,7 +25,9 @@ static inline unsigned quantity_join(const struct quantity *a, const struct quan
 }
 
 /* The part i of a vector, of a number itself. */
-static inline double quantity_part(const struct quantity *q, unsigned i) { return q->v[q->count == 1 ? 0 : i]; }
+static inline double quantity_part(const struct quantity *q, unsigned i) {
+    return q->v[q->count == 1 ? 0 : i];
+}
 
 /* The rest of a / b with the sign of b, nearer to 0 than b. NaN for b = 0. */
 double function_modulo(double a, double b);

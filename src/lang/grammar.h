@@ -36,19 +36,20 @@ struct grammar_kind;
 struct grammar_key {
     const char *name;
     enum grammar_type type;
-    const struct grammar_kind *of; /* OBJECT, LIST, MAP; of a COLOR: the mapping that may stand instead; else NULL */
-    const char *const *choices;    /* CHOICE: ends with NULL */
-    const char *const *instead;    /* words of other renderers for this key; ends with NULL */
-    const char *const *near;       /* words of other renderers for what is not quite this; ends with NULL */
-    const char *const *excludes;   /* keys that contradict this one; ends with NULL */
-    const char *const *needs;      /* keys that must stand beside this one; ends with NULL */
+    const struct grammar_kind
+        *of; /* OBJECT, LIST, MAP; of a COLOR: the mapping that may stand instead; else NULL */
+    const char *const *choices;  /* CHOICE: ends with NULL */
+    const char *const *instead;  /* words of other renderers for this key; ends with NULL */
+    const char *const *near;     /* words of other renderers for what is not quite this; ends with NULL */
+    const char *const *excludes; /* keys that contradict this one; ends with NULL */
+    const char *const *needs;    /* keys that must stand beside this one; ends with NULL */
     bool required;
     bool alternative; /* a mapping of the kind has exactly one of its alternatives */
     bool named;       /* OBJECT: a name of the file's definitions of that kind may stand instead */
     bool single;      /* LIST: a single item may stand without its list */
     bool has_default;
-    double value[3];                   /* the default: a number, choice, boolean or components */
-    bool has_min, has_max, above;      /* range of each number; above: min itself is out */
+    double value[3];              /* the default: a number, choice, boolean or components */
+    bool has_min, has_max, above; /* range of each number; above: min itself is out */
     double min, max;
     const char *default_text, *unit, *doc, *example; /* for people; NULL where there is none */
     const char *type_text, *range_text;              /* for people; "" where everything goes */
@@ -61,7 +62,8 @@ struct grammar_kind {
     const char *example; /* NULL: none */
     const struct grammar_key *keys;
     int key_count;
-    uint64_t required, alternatives, companions; /* the keys that are so, or name others by excludes or needs: bit i is key i */
+    uint64_t required, alternatives,
+        companions; /* the keys that are so, or name others by excludes or needs: bit i is key i */
 };
 
 /* The key of that name, or -1. */

@@ -28,7 +28,8 @@ static const char *path_from(struct checker *ck, const struct unit *unit, const 
 static void report_missing(struct checker *ck, const struct node *node, const char *path) {
     const int reason = errno;
     const struct node *n = node_resolve(node);
-    struct diagnostic *d = diag_error(ck->diag, node->span, "include-missing", "cannot read `%s`: %s", short_text(ck, n->text), strerror(reason));
+    struct diagnostic *d = diag_error(ck->diag, node->span, "include-missing", "cannot read `%s`: %s",
+                                      short_text(ck, n->text), strerror(reason));
     if (strcmp(path, n->text) != 0) diag_note(ck->diag, d, "looked for it at %s", path);
     if (reason == EINVAL) diag_help(ck->diag, d, "what is included is a regular file");
     if (reason == EISDIR || reason == EINVAL) return;
@@ -36,7 +37,7 @@ static void report_missing(struct checker *ck, const struct node *node, const ch
     DIR *files = opendir(*folder ? folder : ".");
     if (!files) diag_help(ck->diag, d, "there is no folder %s", folder);
     struct spelling s = spelling_begin(path + folder_length(path));
-    char best[sizeof ((struct dirent *)0)->d_name] = ""; /* the arena might leave while the folder is open */
+    char best[sizeof((struct dirent *)0)->d_name] = ""; /* the arena might leave while the folder is open */
     for (struct dirent *file = files ? readdir(files) : NULL; file; file = readdir(files)) {
         spelling_offer(&s, file->d_name);
         if (s.best == file->d_name) s.best = strcpy(best, file->d_name);
@@ -46,7 +47,8 @@ static void report_missing(struct checker *ck, const struct node *node, const ch
 }
 
 static void report_no_definitions(struct checker *ck, const struct unit *unit) {
-    struct diagnostic *d = diag_error(ck->diag, unit->root->span, "not-a-mapping", "expected definitions, found %s", found_text(ck, unit->root));
+    struct diagnostic *d = diag_error(ck->diag, unit->root->span, "not-a-mapping",
+                                      "expected definitions, found %s", found_text(ck, unit->root));
     diag_note(ck->diag, d, "an included file has `params`, `define`, `materials` or `include`");
     diag_related(ck->diag, d, unit->include, "it is included here");
 }
@@ -54,9 +56,12 @@ static void report_no_definitions(struct checker *ck, const struct unit *unit) {
 /* Nothing can be said of names that are not found: they may be in the file that cannot be read. */
 static void lose_names(struct checker *ck) { ck->names_lost = ck->variables_lost = true; }
 
-static void report_cycle(struct checker *ck, const struct unit *unit, const struct unit *again, const struct node *node) {
-    struct diagnostic *d = diag_error(ck->diag, node->span, "include-cycle", "`%s` includes itself", again->source->name);
-    for (const struct unit *u = unit; u != again; u = u->includer) diag_related(ck->diag, d, u->include, "`%s` is included here", u->source->name);
+static void report_cycle(struct checker *ck, const struct unit *unit, const struct unit *again,
+                         const struct node *node) {
+    struct diagnostic *d =
+        diag_error(ck->diag, node->span, "include-cycle", "`%s` includes itself", again->source->name);
+    for (const struct unit *u = unit; u != again; u = u->includer)
+        diag_related(ck->diag, d, u->include, "`%s` is included here", u->source->name);
     diag_help(ck->diag, d, "remove one of these includes");
 }
 
@@ -66,10 +71,13 @@ static bool is_allowed(struct checker *ck, const struct node *node, const char *
     char folder[PATH_MAX], real[PATH_MAX];
     const char *scene = ck->input->path;
     const char *around = arena_format(ck->arena, "%.*s", (int)folder_length(scene), scene);
-    if (!realpath(*around ? around : ".", folder) || !realpath(path, real)) return true; /* is missing: reported so */
+    if (!realpath(*around ? around : ".", folder) || !realpath(path, real))
+        return true; /* is missing: reported so */
     const size_t length = strlen(folder);
     if (strncmp(folder, real, length) == 0 && (real[length] == '/' || length == 1)) return true;
-    struct diagnostic *d = diag_error(ck->diag, node->span, "include-outside", "`%s` is not in the folder of the scene", short_text(ck, node_resolve(node)->text));
+    struct diagnostic *d =
+        diag_error(ck->diag, node->span, "include-outside", "`%s` is not in the folder of the scene",
+                   short_text(ck, node_resolve(node)->text));
     diag_help(ck->diag, d, "without `--untrusted` it may be included");
     return false;
 }
@@ -112,14 +120,21 @@ static bool is_around(const struct unit *unit, const struct unit *wanted) {
     return unit != NULL;
 }
 
-static struct unit *read_unit(struct checker *ck, const struct unit *includer, const struct node *node, const char *path, struct included *file) {
+static struct unit *read_unit(struct checker *ck, const struct unit *includer, const struct node *node,
+                              const char *path, struct included *file) {
     struct arena *arena = &ck->memory->kept;
-    if (!file->source) file->source = file_read(ck->input->files->arena, ck->diag, path, ck->input->limits.file_bytes);
+    if (!file->source)
+        file->source = file_read(ck->input->files->arena, ck->diag, path, ck->input->limits.file_bytes);
     const struct source *source = file->source;
     if (!source) return NULL;
     struct unit *unit = arena_alloc(arena, sizeof *unit);
-    *unit = (struct unit){.source = source, .path = path, .includer = includer, .include = node->span,
-                          .device = file->device, .inode = file->inode, .next = ck->units};
+    *unit = (struct unit){.source = source,
+                          .path = path,
+                          .includer = includer,
+                          .include = node->span,
+                          .device = file->device,
+                          .inode = file->inode,
+                          .next = ck->units};
     ck->units = unit;
     const struct node_limits limits = {ck->input->limits.nesting, ck->input->limits.values};
     struct node_problem problem = {0};
@@ -131,7 +146,8 @@ static struct unit *read_unit(struct checker *ck, const struct unit *includer, c
 static void include_file(struct checker *ck, const struct unit *unit, const struct node *node) {
     const struct node *n = node_resolve(node);
     if (n->kind != NODE_SCALAR || n->count == 0) {
-        diag_error(ck->diag, node->span, "not-a-text", "`include`: expected a path, found %s", found_text(ck, node));
+        diag_error(ck->diag, node->span, "not-a-text", "`include`: expected a path, found %s",
+                   found_text(ck, node));
         return;
     }
     const char *path = path_from(ck, unit, n->text);
@@ -144,8 +160,10 @@ static void include_file(struct checker *ck, const struct unit *unit, const stru
     if (known && is_around(unit, known)) report_cycle(ck, unit, known, node);
     if (known || !place_descend(ck, node->span)) return;
     struct unit *included = read_unit(ck, unit, node, path, file);
-    if (included && included->root->kind == NODE_MAPPING) define_names(ck, included);
-    else lose_names(ck);
+    if (included && included->root->kind == NODE_MAPPING)
+        define_names(ck, included);
+    else
+        lose_names(ck);
     if (included && included->root->kind != NODE_MAPPING) report_no_definitions(ck, included);
     ck->depth--;
 }

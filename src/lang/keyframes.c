@@ -11,15 +11,19 @@ struct keyframe {
 bool keyframes_is(const struct node *node) { return node->kind == NODE_MAPPING && node_get(node, "keys"); }
 
 /* One frame and its value, put in its place among the `count` before it. */
-static enum quantity_result read_frame(struct checker *ck, const struct node *name, struct keyframe *frames, unsigned count) {
+static enum quantity_result read_frame(struct checker *ck, const struct node *name, struct keyframe *frames,
+                                       unsigned count) {
     const struct grammar_key key = {.name = "keys", .type = GRAMMAR_NUMBER};
     struct keyframe f;
     if (!check_number(ck, &key, name, &f.frame)) return ck->waiting ? QUANTITY_UNKNOWN : QUANTITY_WRONG;
     const enum quantity_result result = scope_quantity(ck, "keys", name->next, &f.value);
-    if (result == QUANTITY_NONE) diag_error(ck->diag, name->next->span, "not-a-quantity", "`keys`: expected a number, a vector or a colour, found %s", found_text(ck, name->next));
+    if (result == QUANTITY_NONE)
+        diag_error(ck->diag, name->next->span, "not-a-quantity",
+                   "`keys`: expected a number, a vector or a colour, found %s", found_text(ck, name->next));
     if (result != QUANTITY_OK) return result == QUANTITY_UNKNOWN ? result : QUANTITY_WRONG;
     if (count > 0 && f.value.count != frames[0].value.count) {
-        diag_error(ck->diag, name->next->span, "not-a-quantity", "`keys`: %u number%s here, %u in the first", f.value.count, f.value.count == 1 ? "" : "s", frames[0].value.count);
+        diag_error(ck->diag, name->next->span, "not-a-quantity", "`keys`: %u number%s here, %u in the first",
+                   f.value.count, f.value.count == 1 ? "" : "s", frames[0].value.count);
         return QUANTITY_WRONG;
     }
     unsigned at = count;
@@ -57,7 +61,8 @@ enum quantity_result keyframes_read(struct checker *ck, const struct node *node,
     const unsigned errors = ck->diag->errors;
     const struct object_value *object = check_object(ck, &grammar_kinds[KIND_KEYFRAMES], node);
     if (!ck->animation && !ck->provisional && !ck->variables_lost && ck->diag->errors == errors) {
-        struct diagnostic *d = diag_error(ck->diag, node->span, "no-animation", "keyframes in a scene that does not move");
+        struct diagnostic *d =
+            diag_error(ck->diag, node->span, "no-animation", "keyframes in a scene that does not move");
         diag_help(ck->diag, d, "add `animation: {frames: 24}`");
     }
     if (!ck->animation) {
@@ -72,14 +77,18 @@ enum quantity_result keyframes_read(struct checker *ck, const struct node *node,
     for (const struct node *name = keys->first; name; name = name->next->next) {
         const enum quantity_result result = read_frame(ck, name, frames, count);
         if (result == QUANTITY_WRONG) return result;
-        if (result == QUANTITY_UNKNOWN) all = result;
-        else count++;
+        if (result == QUANTITY_UNKNOWN)
+            all = result;
+        else
+            count++;
     }
     if (all == QUANTITY_OK && count == 0) {
-        diag_help(ck->diag, diag_error(ck->diag, keys->span, "no-value", "`keys` without any frame"), "as in {keys: {1: 0, 24: 1}}");
+        diag_help(ck->diag, diag_error(ck->diag, keys->span, "no-value", "`keys` without any frame"),
+                  "as in {keys: {1: 0, 24: 1}}");
         return QUANTITY_WRONG;
     }
     ck->moved = true;
-    if (all == QUANTITY_OK) *out = value_at(frames, count, object_choice(object, KEY_KEYFRAMES_EASE), ck->input->frame);
+    if (all == QUANTITY_OK)
+        *out = value_at(frames, count, object_choice(object, KEY_KEYFRAMES_EASE), ck->input->frame);
     return all;
 }

@@ -36,7 +36,8 @@ static bool stream_item(void *context, struct node *item) {
     const size_t steps = ck->steps, objects = ck->objects;
     ck->input->sink->mark(ck->input->sink->context);
     ck->waiting = false;
-    ck->around = (struct surrounding){&grammar_kinds[KIND_FILE], &grammar_kinds[KIND_FILE].keys[KEY_FILE_SCENE]};
+    ck->around =
+        (struct surrounding){&grammar_kinds[KIND_FILE], &grammar_kinds[KIND_FILE].keys[KEY_FILE_SCENE]};
     place_item(ck, item);
     ck->around = (struct surrounding){0};
     if (!ck->waiting) return true;
@@ -78,7 +79,8 @@ static void check_included(struct checker *ck) {
         const struct node *moving = node_get(unit->root, "animation");
         if (moving && !animation) ck->animation = check_object(ck, &grammar_kinds[KIND_ANIMATION], moving);
         const struct object_value *file = check_object(ck, &grammar_kinds[KIND_FILE], unit->root);
-        if (file && file->fields[KEY_FILE_SCENE]) place_members(ck, KIND_FILE, KEY_FILE_SCENE, file->fields[KEY_FILE_SCENE]->node);
+        if (file && file->fields[KEY_FILE_SCENE])
+            place_members(ck, KIND_FILE, KEY_FILE_SCENE, file->fields[KEY_FILE_SCENE]->node);
         ck->animation = animation;
     }
     ck->rehearsing = ck->included = false;
@@ -100,14 +102,19 @@ struct reading {
     struct checker ready; /* as it was after the reading, for each frame */
 };
 
-static struct reading *begin_reading(struct lang_memory *memory, struct diagnostics *diag, const struct lang_input *input) {
+static struct reading *begin_reading(struct lang_memory *memory, struct diagnostics *diag,
+                                     const struct lang_input *input) {
     memory->kept.parent = memory->scratch.parent = &memory->nodes;
     struct reading *reading = arena_alloc(&memory->kept, sizeof *reading);
     reading->input = *input;
     if (!input->frame) reading->input.frame = 1;
     if (!input->files) reading->input.files = &reading->files;
     reading->files.arena = &memory->kept;
-    reading->checker = (struct checker){.arena = &memory->scratch, .memory = memory, .diag = diag, .input = &reading->input, .provisional = true};
+    reading->checker = (struct checker){.arena = &memory->scratch,
+                                        .memory = memory,
+                                        .diag = diag,
+                                        .input = &reading->input,
+                                        .provisional = true};
     reading->checker.parameters_end = &reading->checker.first_parameter;
     return reading;
 }
@@ -123,7 +130,8 @@ static struct object_value *read_file(struct checker *ck, struct arena *arena, c
     return file;
 }
 
-struct lang_result lang_read(struct lang_memory *memory, struct diagnostics *diag, const struct lang_input *input) {
+struct lang_result lang_read(struct lang_memory *memory, struct diagnostics *diag,
+                             const struct lang_input *input) {
     struct reading *reading = begin_reading(memory, diag, input);
     struct checker *ck = &reading->checker;
     const unsigned errors = diag->errors + diag->failures;
@@ -132,7 +140,8 @@ struct lang_result lang_read(struct lang_memory *memory, struct diagnostics *dia
     ck->provisional = false;
     define_names(ck, unit);
     struct object_value *file = read_file(ck, &memory->kept, unit);
-    if (file && file->fields[KEY_FILE_SCENE]) place_members(ck, KIND_FILE, KEY_FILE_SCENE, file->fields[KEY_FILE_SCENE]->node);
+    if (file && file->fields[KEY_FILE_SCENE])
+        place_members(ck, KIND_FILE, KEY_FILE_SCENE, file->fields[KEY_FILE_SCENE]->node);
     if (file) check_included(ck);
     if (file) define_check_given(ck);
     if (file) file->failed = diag->errors + diag->failures != errors;

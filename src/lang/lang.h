@@ -7,12 +7,12 @@
 #include "lang/description.h"
 
 struct lang_limits {
-    size_t file_bytes; /* of one file */
-    unsigned nesting;  /* collections within each other */
-    size_t values;     /* in one file, those behind aliases each time */
+    size_t file_bytes;  /* of one file */
+    unsigned nesting;   /* collections within each other */
+    size_t values;      /* in one file, those behind aliases each time */
     unsigned recursion; /* templates in use within each other */
-    size_t steps;      /* objects looked at, placed or not, and turns of loops */
-    size_t objects;    /* shapes placed, those of templates that stand once for many once */
+    size_t steps;       /* objects looked at, placed or not, and turns of loops */
+    size_t objects;     /* shapes placed, those of templates that stand once for many once */
 };
 
 /* What becomes of a template in use, see lang_sink. */
@@ -30,7 +30,8 @@ struct lang_sink {
     void (*close_group)(void *context);
     /* The template and its arguments as a hash. exact: uses of equal hash have equal objects; else it
      * is of the template alone, and the objects may be others each time. */
-    enum lang_use (*open_use)(void *context, const struct object_value *object, const struct hash *contents, bool exact);
+    enum lang_use (*open_use)(void *context, const struct object_value *object, const struct hash *contents,
+                              bool exact);
     bool (*close_use)(void *context); /* true: read the objects once more, and close again */
     /* What was placed since the mark is taken back. */
     void (*mark)(void *context);
@@ -53,12 +54,12 @@ struct lang_files {
 
 struct lang_input {
     const struct source *source; /* the scene; outlives the reading */
-    const char *path;            /* of it, for what it includes; "-" or a name that is no file: the working folder */
+    const char *path; /* of it, for what it includes; "-" or a name that is no file: the working folder */
     struct lang_limits limits;
     const struct lang_define *defines;
     size_t define_count;
-    unsigned frame; /* of an animation, from 1; 0: the first */
-    bool untrusted; /* includes stay in the folder of the scene */
+    unsigned frame;           /* of an animation, from 1; 0: the first */
+    bool untrusted;           /* includes stay in the folder of the scene */
     struct lang_files *files; /* NULL: nothing has been read yet */
     const struct lang_sink *sink;
 };
@@ -84,7 +85,8 @@ struct lang_result {
 
 /* Reads the scene, all its mistakes reported to `diag`; diag tells whether it was right. The objects go
  * to the sink; the rest is the result, which lives in `memory`. */
-struct lang_result lang_read(struct lang_memory *memory, struct diagnostics *diag, const struct lang_input *input);
+struct lang_result lang_read(struct lang_memory *memory, struct diagnostics *diag,
+                             const struct lang_input *input);
 
 /* The file's settings, camera and lights at another frame, of a scene that was right and whose objects do not
  * move; its memory, and what its input points to but for the sink, are still there. *result is renewed, and

@@ -52,7 +52,9 @@ static void run_rest(struct loop *loop, const struct node *name) {
 
 static void run_turn(struct loop *loop, const struct node *name, struct quantity value) {
     struct binding *b = &loop->bindings[loop->scope.count];
-    *b = (struct binding){.name = node_resolve(name)->text, .kind = loop->ck->rehearsing ? BINDING_UNKNOWN : BINDING_QUANTITY, .quantity = value};
+    *b = (struct binding){.name = node_resolve(name)->text,
+                          .kind = loop->ck->rehearsing ? BINDING_UNKNOWN : BINDING_QUANTITY,
+                          .quantity = value};
     loop->scope.count++;
     run_rest(loop, name);
     loop->scope.count--;
@@ -60,7 +62,9 @@ static void run_turn(struct loop *loop, const struct node *name, struct quantity
 
 static bool may_turn(struct checker *ck, const struct node *node, double turns) {
     if (turns <= (double)ck->input->limits.steps) return true;
-    struct diagnostic *d = diag_error(ck->diag, node->span, "limit-steps", "a loop of %s turns: more than %zu (the limit `steps`)", isfinite(turns) ? arena_format(ck->arena, "%.15g", turns) : "endless", ck->input->limits.steps);
+    struct diagnostic *d = diag_error(
+        ck->diag, node->span, "limit-steps", "a loop of %s turns: more than %zu (the limit `steps`)",
+        isfinite(turns) ? arena_format(ck->arena, "%.15g", turns) : "endless", ck->input->limits.steps);
     diag_help(ck->diag, d, "a smaller loop, or `--limit steps=N`");
     return false;
 }
@@ -82,11 +86,15 @@ static bool report_range_text(struct checker *ck, const char *name, const struct
         const char *at = n->count > 0 ? strstr(n->text + 1, between[i]) : NULL;
         double from, to;
         if (!at) continue;
-        const char *first = arena_text(ck->arena, n->text, (size_t)(at - n->text)), *second = at + strlen(between[i]);
+        const char *first = arena_text(ck->arena, n->text, (size_t)(at - n->text)),
+                   *second = at + strlen(between[i]);
         first = arena_text(ck->arena, first, strcspn(first, " "));
         second += strspn(second, " ");
-        if (!scalar_number(ck, first, &from) || !scalar_number(ck, second, &to) || (*at == '-' && from >= to)) continue;
-        struct diagnostic *d = diag_error(ck->diag, node->span, "not-a-number", "`%s`: expected a whole number, a list or a range, found %s", name, found_text(ck, node));
+        if (!scalar_number(ck, first, &from) || !scalar_number(ck, second, &to) || (*at == '-' && from >= to))
+            continue;
+        struct diagnostic *d = diag_error(ck->diag, node->span, "not-a-number",
+                                          "`%s`: expected a whole number, a list or a range, found %s", name,
+                                          found_text(ck, node));
         diag_help(ck->diag, d, "a range is written {from: %.15g, to: %.15g}, and has both ends", from, to);
         return true;
     }
@@ -94,11 +102,13 @@ static bool report_range_text(struct checker *ck, const char *name, const struct
 }
 
 static bool run_count(struct loop *loop, const struct node *name) {
-    const struct grammar_key key = {.name = node_resolve(name)->text, .type = GRAMMAR_INTEGER, .has_min = true};
+    const struct grammar_key key = {
+        .name = node_resolve(name)->text, .type = GRAMMAR_INTEGER, .has_min = true};
     const struct node *n = node_resolve(name->next);
     double count = 1;
     if (n->kind == NODE_SCALAR && n->count == 0) {
-        struct diagnostic *d = diag_error(loop->ck->diag, name->span, "no-value", "`%s` has no value", key.name);
+        struct diagnostic *d =
+            diag_error(loop->ck->diag, name->span, "no-value", "`%s` has no value", key.name);
         diag_help(loop->ck->diag, d, "how often, as in `for: {%s: 9}`", key.name);
         return false;
     }
@@ -115,7 +125,8 @@ static bool run_range(struct loop *loop, const struct node *name) {
     const double step = object_number(range, KEY_RANGE_STEP);
     if (ck->rehearsing) return run_numbers(loop, name, from, step, 1);
     if (step == 0.0 || (to - from) * step < 0.0) {
-        struct diagnostic *d = diag_error(ck->diag, object_span(range, KEY_RANGE_STEP), "bad-range", "steps of %.15g never lead from %.15g to %.15g", step, from, to);
+        struct diagnostic *d = diag_error(ck->diag, object_span(range, KEY_RANGE_STEP), "bad-range",
+                                          "steps of %.15g never lead from %.15g to %.15g", step, from, to);
         diag_help(ck->diag, d, step == 0.0 ? "any other step will do" : "give a `step` of the other sign");
         return false;
     }
@@ -124,7 +135,8 @@ static bool run_range(struct loop *loop, const struct node *name) {
 }
 
 /* `scope`: of the names in the list. */
-static bool run_list(struct loop *loop, const struct node *name, const struct node *list, const struct scope *scope) {
+static bool run_list(struct loop *loop, const struct node *name, const struct node *list,
+                     const struct scope *scope) {
     struct checker *ck = loop->ck;
     const struct scope *here = ck->scope;
     for (const struct node *item = list->first; item && !ck->stopped; item = item->next) {
@@ -141,16 +153,19 @@ static bool run_list(struct loop *loop, const struct node *name, const struct no
 }
 
 static bool run_vector(struct loop *loop, const struct node *name, const struct quantity *q) {
-    for (unsigned i = 0; i < q->count && !loop->ck->stopped && !loop->ck->waiting; i++) run_turn(loop, name, (struct quantity){1, {q->v[i]}});
+    for (unsigned i = 0; i < q->count && !loop->ck->stopped && !loop->ck->waiting; i++)
+        run_turn(loop, name, (struct quantity){1, {q->v[i]}});
     return true;
 }
 
 static bool run_variable(struct loop *loop, const struct node *name) {
     struct checker *ck = loop->ck;
     const struct node *n = node_resolve(name->next);
-    const struct binding *b = n->kind == NODE_SCALAR && scope_is_name(n->text) ? scope_find(ck, n->text) : NULL;
+    const struct binding *b =
+        n->kind == NODE_SCALAR && scope_is_name(n->text) ? scope_find(ck, n->text) : NULL;
     const struct node *list = b && b->kind == BINDING_NODE ? node_resolve(b->node) : NULL;
-    if (b && b->kind == BINDING_QUANTITY && b->quantity.count > 1) return run_vector(loop, name, &b->quantity);
+    if (b && b->kind == BINDING_QUANTITY && b->quantity.count > 1)
+        return run_vector(loop, name, &b->quantity);
     if (list && list->kind == NODE_SEQUENCE) return run_list(loop, name, list, b->scope);
     if (n->kind == NODE_SEQUENCE) return run_list(loop, name, n, ck->scope);
     return n->kind == NODE_MAPPING && !keyframes_is(n) ? run_range(loop, name) : run_count(loop, name);
@@ -182,7 +197,8 @@ static bool names_allowed(struct checker *ck, const struct node *n) {
         good &= !report_cut_before(ck, n, name) && define_name_allowed(ck, "a loop variable", name);
         for (const struct node *before = n->first; good && before != name; before = before->next->next)
             if (strcmp(node_resolve(before)->text, node_resolve(name)->text) == 0) {
-                struct diagnostic *d = diag_error(ck->diag, name->span, "key-twice", "`%s` is given twice", node_resolve(name)->text);
+                struct diagnostic *d = diag_error(ck->diag, name->span, "key-twice", "`%s` is given twice",
+                                                  node_resolve(name)->text);
                 diag_related(ck->diag, d, before->span, "first given here");
                 good = false;
             }
@@ -197,28 +213,39 @@ static void rehearse(struct loop *loop, const struct node *n) {
     const bool outer = ck->rehearsing;
     loop->scope.count = 0;
     for (const struct node *name = n->first; name; name = name->next->next)
-        if (node_resolve(name)->kind == NODE_SCALAR) loop->bindings[loop->scope.count++] = (struct binding){.name = node_resolve(name)->text, .kind = BINDING_UNKNOWN};
+        if (node_resolve(name)->kind == NODE_SCALAR)
+            loop->bindings[loop->scope.count++] =
+                (struct binding){.name = node_resolve(name)->text, .kind = BINDING_UNKNOWN};
     ck->rehearsing = true;
     loop->turn(ck, loop->context);
     ck->rehearsing = outer;
 }
 
-void loop_run(struct checker *ck, const struct node *node, void (*turn)(struct checker *ck, void *context), void *context) {
+void loop_run(struct checker *ck, const struct node *node, void (*turn)(struct checker *ck, void *context),
+              void *context) {
     const struct node *n = node_resolve(node);
     if (n->kind != NODE_MAPPING || n->count == 0) {
-        struct diagnostic *d = diag_error(ck->diag, node->span, "not-a-map", "`for`: expected variables, each with how often, found %s", found_text(ck, node));
+        struct diagnostic *d =
+            diag_error(ck->diag, node->span, "not-a-map",
+                       "`for`: expected variables, each with how often, found %s", found_text(ck, node));
         diag_help(ck->diag, d, "as in `for: {i: 9}`");
         return;
     }
     enum { MOST = 16 };
     if (n->count > MOST) {
-        diag_error(ck->diag, node->span, "limit-nesting", "a loop of %u variables: more than %d", n->count, MOST);
+        diag_error(ck->diag, node->span, "limit-nesting", "a loop of %u variables: more than %d", n->count,
+                   MOST);
         return;
     }
     const bool allowed = names_allowed(ck, n);
     struct binding *bindings = arena_array(ck->arena, n->count, sizeof *bindings);
-    struct loop loop = {.frame = {.span = node->span, .text = turn_text}, .ck = ck, .scope = {ck->scope, bindings, 0},
-                        .bindings = bindings, .turn = turn, .context = context, .good = true};
+    struct loop loop = {.frame = {.span = node->span, .text = turn_text},
+                        .ck = ck,
+                        .scope = {ck->scope, bindings, 0},
+                        .bindings = bindings,
+                        .turn = turn,
+                        .context = context,
+                        .good = true};
     ck->scope = &loop.scope;
     if (allowed) run_variables(&loop, n->first);
     if (!(loop.good && loop.turned) && !ck->waiting && !ck->stopped) rehearse(&loop, n);
@@ -230,12 +257,16 @@ void loop_run(struct checker *ck, const struct node *node, void (*turn)(struct c
 enum quantity_result loop_condition(struct checker *ck, const struct node *node, bool *out) {
     const struct node *n = node_resolve(node);
     struct quantity q = {0};
-    const enum quantity_result result = n->kind == NODE_SCALAR ? scope_quantity(ck, "when", node, &q) : QUANTITY_NONE;
+    const enum quantity_result result =
+        n->kind == NODE_SCALAR ? scope_quantity(ck, "when", node, &q) : QUANTITY_NONE;
     *out = q.v[0] != 0.0;
     if (result != QUANTITY_NONE && !(result == QUANTITY_OK && q.count != 1)) return result;
-    struct diagnostic *d = diag_error(ck->diag, node->span, "not-a-condition", "`when`: expected a condition, found %s", found_text(ck, node));
+    struct diagnostic *d = diag_error(ck->diag, node->span, "not-a-condition",
+                                      "`when`: expected a condition, found %s", found_text(ck, node));
     if (n->kind == NODE_SCALAR && scalar_help_truth(ck, d, n->text)) return QUANTITY_WRONG;
-    if (n->kind == NODE_SCALAR && scope_is_name(n->text)) scalar_help_variable(ck, d, n->text);
-    else diag_help(ck->diag, d, "as in `when: depth > 0`");
+    if (n->kind == NODE_SCALAR && scope_is_name(n->text))
+        scalar_help_variable(ck, d, n->text);
+    else
+        diag_help(ck->diag, d, "as in `when: depth > 0`");
     return QUANTITY_WRONG;
 }

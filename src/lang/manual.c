@@ -136,24 +136,30 @@ static bool print_in_expressions(FILE *out, const char *word, const char *before
     while (c < grammar_constant_count && strcmp(grammar_constants[c].name, word) != 0) c++;
     if (f == grammar_function_count && c == grammar_constant_count) return false;
     fputs(before, out);
-    if (f < grammar_function_count) print_function(out, &grammar_functions[f]);
-    else print_constant(out, &grammar_constants[c]);
+    if (f < grammar_function_count)
+        print_function(out, &grammar_functions[f]);
+    else
+        print_constant(out, &grammar_constants[c]);
     return true;
 }
 
 static void print_row(FILE *out, const char *name, const char *doc) {
     const int length = (int)strlen(name), column = FUNCTION_COLUMN;
     fprintf(out, "  %s", name);
-    if (length + 3 > column) fprintf(out, "\n%*s", column, "");
-    else fprintf(out, "%*s", column - 2 - length, "");
+    if (length + 3 > column)
+        fprintf(out, "\n%*s", column, "");
+    else
+        fprintf(out, "%*s", column - 2 - length, "");
     print_wrapped(out, doc, column, column);
 }
 
 static bool print_functions(FILE *out) {
     fputs("What expressions may call; `monge help NAME` tells more of each:\n\n", out);
-    for (int i = 0; i < grammar_function_count; i++) print_row(out, grammar_functions[i].call, grammar_functions[i].doc);
+    for (int i = 0; i < grammar_function_count; i++)
+        print_row(out, grammar_functions[i].call, grammar_functions[i].doc);
     fputs("\nAnd name, besides what the scene defines and the colours of CSS:\n\n", out);
-    for (int i = 0; i < grammar_constant_count; i++) print_row(out, grammar_constants[i].name, grammar_constants[i].doc);
+    for (int i = 0; i < grammar_constant_count; i++)
+        print_row(out, grammar_constants[i].name, grammar_constants[i].doc);
     return true;
 }
 
@@ -161,7 +167,8 @@ static bool print_functions(FILE *out) {
 
 /* A scalar or a list as it is written. */
 static const char *value_text(struct arena *arena, const struct node *value) {
-    if (value->kind == NODE_SCALAR) return value->quoted ? arena_format(arena, "\"%s\"", value->text) : value->text;
+    if (value->kind == NODE_SCALAR)
+        return value->quoted ? arena_format(arena, "\"%s\"", value->text) : value->text;
     const char *text = "[";
     for (const struct node *item = value->first; item; item = item->next)
         text = arena_format(arena, "%s%s%s", text, value_text(arena, item), item->next ? ", " : "]");
@@ -172,7 +179,8 @@ static void print_preset(FILE *out, struct arena *arena, const struct node *name
     const struct node *first = name->next->first;
     int column = fprintf(out, "  %-*s", NAME_COLUMN - 2, name->text);
     for (const struct node *key = first; key; key = key->next->next) {
-        const char *text = arena_format(arena, "%s: %s%s", key->text, value_text(arena, key->next), key->next->next ? "," : "");
+        const char *text = arena_format(arena, "%s: %s%s", key->text, value_text(arena, key->next),
+                                        key->next->next ? "," : "");
         const int length = (int)strlen(text), space = key == first ? 0 : 1;
         const bool fits = column + space + length <= LINE_WIDTH;
         fprintf(out, "%s%*s%s", fits ? "" : "\n", fits ? space : NAME_COLUMN, "", text);
@@ -184,10 +192,12 @@ static void print_preset(FILE *out, struct arena *arena, const struct node *name
 static void print_all_presets(FILE *out, struct arena *arena, struct diagnostics *diag) {
     const struct node_limits limits = {20, 100000};
     struct node_problem problem = {0};
-    const struct source *source = file_from_memory(arena, "presets.yaml", grammar_presets, strlen(grammar_presets));
+    const struct source *source =
+        file_from_memory(arena, "presets.yaml", grammar_presets, strlen(grammar_presets));
     const struct node *root = node_parse(arena, diag, source, &limits, NULL, &problem);
     fputs("The materials that come with the program: `material: {preset: glass}` takes one,\n"
-          "keys beside it change it, as in {preset: glass, index: 1.52}.\n\n", out);
+          "keys beside it change it, as in {preset: glass, index: 1.52}.\n\n",
+          out);
     for (const struct node *name = node_get(root, "materials")->first; name; name = name->next->next)
         print_preset(out, arena, name);
 }
@@ -225,7 +235,9 @@ static bool print_language(FILE *out) {
     print_paragraph(out, file->doc, 0);
     fputs("\nThe mappings of a scene; `monge help WORD` tells more of each, and of any key:\n\n", out);
     for (int i = 0; i < grammar_kind_count; i++) print_summary(out, &grammar_kinds[i]);
-    fputs("\n`monge help functions` has what expressions may call, `monge help presets` the\nmaterials that come with the program.\n", out);
+    fputs("\n`monge help functions` has what expressions may call, `monge help presets` the\nmaterials that "
+          "come with the program.\n",
+          out);
     return true;
 }
 

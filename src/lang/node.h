@@ -15,16 +15,16 @@ enum node_kind { NODE_SCALAR, NODE_SEQUENCE, NODE_MAPPING, NODE_ALIAS };
 struct node {
     struct span span; /* a scalar's text; a collection's first character */
     enum node_kind kind;
-    bool quoted;               /* a scalar in quotes or a block scalar */
-    bool merged;               /* a key that a merge key brought here */
-    bool passing;              /* of an item that is handed over while the file is read, see node_stream */
-    bool rehearsed;            /* lang/: what stands here has been checked without values */
-    uint32_t count;            /* scalar: bytes of text; sequence: items; mapping: pairs */
-    uint32_t anchor;           /* of a node that an anchor names: its number, from 1; else 0 */
+    bool quoted;     /* a scalar in quotes or a block scalar */
+    bool merged;     /* a key that a merge key brought here */
+    bool passing;    /* of an item that is handed over while the file is read, see node_stream */
+    bool rehearsed;  /* lang/: what stands here has been checked without values */
+    uint32_t count;  /* scalar: bytes of text; sequence: items; mapping: pairs */
+    uint32_t anchor; /* of a node that an anchor names: its number, from 1; else 0 */
     union {
-        const char *text;      /* scalar: zero-terminated */
-        struct node *first;    /* sequence, mapping: the first child or NULL */
-        struct node *target;   /* alias: the anchored node, never an alias itself */
+        const char *text;    /* scalar: zero-terminated */
+        struct node *first;  /* sequence, mapping: the first child or NULL */
+        struct node *target; /* alias: the anchored node, never an alias itself */
     };
     struct node *next; /* sibling */
     struct expr *expr; /* lang/: of a scalar that was parsed as an expression; else NULL */
@@ -45,8 +45,8 @@ struct node_limits {
 
 /* What libyaml says of a text that is not YAML. */
 struct node_problem {
-    const char *text, *context; /* its words, static; text NULL: there is none */
-    struct span at, context_at; /* where it stopped; where what it was reading begins */
+    const char *text, *context;        /* its words, static; text NULL: there is none */
+    struct span at, context_at;        /* where it stopped; where what it was reading begins */
     struct span quoted_at, quoted_end; /* of the last text in quotes before; source NULL: none */
 };
 
@@ -55,8 +55,9 @@ struct node_problem {
 struct node_stream {
     void *context;
     const char *key;
-    void (*begin)(void *context, struct node *root);  /* before the first: the pairs of the root so far */
-    bool (*item)(void *context, struct node *item);   /* true: the item is forgotten; else it stays in its list */
+    void (*begin)(void *context, struct node *root); /* before the first: the pairs of the root so far */
+    bool (*item)(void *context,
+                 struct node *item); /* true: the item is forgotten; else it stays in its list */
 };
 
 /* The value of that key in a mapping, or NULL. */

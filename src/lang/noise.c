@@ -25,7 +25,8 @@ uint64_t random_bits_of(uint64_t start, const double *v, unsigned count) {
  * 8 directions of a compass, in three those to the 12 edges of a cube. */
 static double corner_value(const double *corner, const double *way, unsigned dimensions) {
     static const double s = 0.70710678118654757;
-    static const double compass[8][2] = {{1, 0}, {s, s}, {0, 1}, {-s, s}, {-1, 0}, {-s, -s}, {0, -1}, {s, -s}};
+    static const double compass[8][2] = {{1, 0},  {s, s},   {0, 1},  {-s, s},
+                                         {-1, 0}, {-s, -s}, {0, -1}, {s, -s}};
     const uint64_t bits = random_bits_of(dimensions, corner, dimensions);
     if (dimensions == 1) return way[0] * ((double)(bits >> 11) * 0x1p-52 - 1.0);
     if (dimensions == 2) return way[0] * compass[bits >> 61][0] + way[1] * compass[bits >> 61][1];

@@ -15,7 +15,9 @@ bool place_descend(struct checker *ck, struct span span) {
     if (ck->depth++ < ck->input->limits.recursion) return true;
     ck->depth--;
     ck->stopped = true;
-    struct diagnostic *d = diag_error(ck->diag, span, "limit-recursion", "more than %u templates within each other (the limit `recursion`)", ck->input->limits.recursion);
+    struct diagnostic *d = diag_error(ck->diag, span, "limit-recursion",
+                                      "more than %u templates within each other (the limit `recursion`)",
+                                      ck->input->limits.recursion);
     diag_help(ck->diag, d, "end it by a `when`, or raise the limit: `--limit recursion=N`");
     return false;
 }
@@ -35,7 +37,9 @@ bool place_count_step(struct checker *ck, const struct node *node) {
     if (ck->depth == 0 && !ck->scope) return true;
     if (++ck->steps <= ck->input->limits.steps) return true;
     ck->stopped = true;
-    struct diagnostic *d = diag_error(ck->diag, node->span, "limit-steps", "more than %zu objects and turns of loops (the limit `steps`)", ck->input->limits.steps);
+    struct diagnostic *d =
+        diag_error(ck->diag, node->span, "limit-steps",
+                   "more than %zu objects and turns of loops (the limit `steps`)", ck->input->limits.steps);
     diag_help(ck->diag, d, "`--limit steps=N` allows more");
     return false;
 }
@@ -43,7 +47,9 @@ bool place_count_step(struct checker *ck, const struct node *node) {
 static bool count_object(struct checker *ck, const struct object_value *object) {
     if (++ck->objects <= ck->input->limits.objects) return true;
     ck->stopped = true;
-    struct diagnostic *d = diag_error(ck->diag, object->span, "limit-objects", "more than %zu shapes (the limit `objects`)", ck->input->limits.objects);
+    struct diagnostic *d =
+        diag_error(ck->diag, object->span, "limit-objects", "more than %zu shapes (the limit `objects`)",
+                   ck->input->limits.objects);
     diag_help(ck->diag, d, "`--limit objects=N` allows more");
     return false;
 }
@@ -78,11 +84,14 @@ struct use {
 static const char *use_text(struct arena *arena, const struct diag_frame *frame) {
     const struct use *use = (const struct use *)frame;
     const char *with = loop_bindings_text(arena, use->arguments);
-    return *with ? arena_format(arena, "`%s` is used here, with %s", use->name, with) : arena_format(arena, "`%s` is used here", use->name);
+    return *with ? arena_format(arena, "`%s` is used here, with %s", use->name, with)
+                 : arena_format(arena, "`%s` is used here", use->name);
 }
 
 const char *lang_use_arguments(struct arena *arena, const struct diag_frame *frame) {
-    return frame && frame->text == use_text ? loop_bindings_text(arena, ((const struct use *)frame)->arguments) : "";
+    return frame && frame->text == use_text
+               ? loop_bindings_text(arena, ((const struct use *)frame)->arguments)
+               : "";
 }
 
 /* The value of a parameter where it is declared: the mapping's `default`, or the value itself. */
@@ -92,26 +101,32 @@ const struct node *place_default(const struct node *declared) {
     return given ? given : declared;
 }
 
-static void report_unknown_argument(struct checker *ck, const struct definition *template, const struct node *parameters, const struct node *name) {
+static void report_unknown_argument(struct checker *ck, const struct definition *template,
+                                    const struct node *parameters, const struct node *name) {
     struct spelling s = spelling_begin(node_resolve(name)->text);
     const char *all = "";
     for (const struct node *p = parameters ? parameters->first : NULL; p; p = p->next->next) {
         spelling_offer(&s, node_resolve(p)->text);
         all = append_name(ck, all, node_resolve(p)->text);
     }
-    struct diagnostic *d = diag_error(ck->diag, name->span, "unknown-argument", "`%s` has no parameter `%s`", template->name, short_text(ck, s.word));
+    struct diagnostic *d = diag_error(ck->diag, name->span, "unknown-argument", "`%s` has no parameter `%s`",
+                                      template->name, short_text(ck, s.word));
     if (s.best) diag_help(ck->diag, d, "did you mean `%s`?", s.best);
     diag_note(ck->diag, d, *all ? "`%s` takes %s" : "`%s` takes none", template->name, all);
     diag_related(ck->diag, d, template->span, "`%s` is defined here", template->name);
 }
 
-static bool check_arguments(struct checker *ck, const struct definition *template, const struct node *parameters, const struct node *with) {
+static bool check_arguments(struct checker *ck, const struct definition *template,
+                            const struct node *parameters, const struct node *with) {
     bool good = true;
     for (const struct node *name = with ? with->first : NULL; name; name = name->next->next) {
         const struct node *word = node_resolve(name);
         if (word->kind == NODE_SCALAR && parameters && node_get(parameters, word->text)) continue;
-        if (word->kind == NODE_SCALAR) report_unknown_argument(ck, template, parameters, name);
-        else diag_error(ck->diag, name->span, "key-not-a-word", "the name of a parameter is a word, found %s", found_text(ck, name));
+        if (word->kind == NODE_SCALAR)
+            report_unknown_argument(ck, template, parameters, name);
+        else
+            diag_error(ck->diag, name->span, "key-not-a-word", "the name of a parameter is a word, found %s",
+                       found_text(ck, name));
         good = false;
     }
     return good;
@@ -124,7 +139,8 @@ static const struct node *values_of(const struct object_value *object, int key) 
 
 /* The template's variables: those given here, in the scope of here; the others by their defaults, in
  * the scope of the parameters before them. */
-static bool bind_arguments(struct checker *ck, const struct node *parameters, const struct node *with, struct scope *arguments) {
+static bool bind_arguments(struct checker *ck, const struct node *parameters, const struct node *with,
+                           struct scope *arguments) {
     const uint32_t count = parameters ? parameters->count : 0;
     struct binding *bindings = arena_array(ck->arena, count ? count : 1, sizeof *bindings);
     const struct scope *here = ck->scope;
@@ -135,7 +151,8 @@ static bool bind_arguments(struct checker *ck, const struct node *parameters, co
         const struct node *given = with ? node_get(with, name) : NULL;
         ck->scope = given ? here : arguments;
         const struct node *value = given ? given : place_default(p->next);
-        good &= scope_bind(ck, name, value, &bindings[arguments->count]) && define_in_range(ck, name, p->next, value);
+        good &= scope_bind(ck, name, value, &bindings[arguments->count]) &&
+                define_in_range(ck, name, p->next, value);
         ck->scope = here;
         arguments->count++;
     }
@@ -143,7 +160,8 @@ static bool bind_arguments(struct checker *ck, const struct node *parameters, co
 }
 
 /* What the objects of the use depend on. False: on more than can be told, *hash is of the template. */
-static bool use_contents(const struct definition *template, const struct scope *arguments, struct hash *hash) {
+static bool use_contents(const struct definition *template, const struct scope *arguments,
+                         struct hash *hash) {
     hash_begin(hash);
     hash_integer(hash, template->number);
     for (unsigned i = 0; i < arguments->count; i++) {
@@ -167,18 +185,22 @@ static bool use_contents(const struct definition *template, const struct scope *
     return true;
 }
 
-static void open_template(struct checker *ck, const struct object_value *object, const struct definition *template, const struct scope *arguments) {
+static void open_template(struct checker *ck, const struct object_value *object,
+                          const struct definition *template, const struct scope *arguments) {
     const struct lang_sink *sink = ck->input->sink;
     struct hash contents;
     const bool exact = use_contents(template, arguments, &contents);
     if (!place_descend(ck, object_span(object, KEY_OBJECT_USE))) return;
-    struct use use = {{object_span(object, KEY_OBJECT_USE), use_text, ck->diag->frame}, template->name, arguments};
+    struct use use = {
+        {object_span(object, KEY_OBJECT_USE), use_text, ck->diag->frame}, template->name, arguments};
     const struct scope *outer = ck->scope;
     ck->scope = arguments;
     ck->diag->frame = &use.frame;
     bool again = is_live(ck) && sink->open_use(sink->context, object, &contents, exact) == LANG_USE_READ;
     while (again) {
-        if (is_live(ck)) place_members(ck, KIND_TEMPLATE, KEY_TEMPLATE_OBJECTS, values_of(template->object, KEY_TEMPLATE_OBJECTS));
+        if (is_live(ck))
+            place_members(ck, KIND_TEMPLATE, KEY_TEMPLATE_OBJECTS,
+                          values_of(template->object, KEY_TEMPLATE_OBJECTS));
         again = sink->close_use(sink->context); /* what is open is closed, live or not */
     }
     ck->diag->frame = use.frame.outer;
@@ -197,7 +219,8 @@ static void place_use(struct checker *ck, const struct object_value *object) {
     if (parameters && parameters->kind != NODE_MAPPING) return;
     const struct node *with = values_of(object, KEY_OBJECT_WITH);
     struct scope arguments;
-    if (!check_arguments(ck, template, parameters, with) || !bind_arguments(ck, parameters, with, &arguments)) return;
+    if (!check_arguments(ck, template, parameters, with) || !bind_arguments(ck, parameters, with, &arguments))
+        return;
     if (is_live(ck) && read && !read->failed) open_template(ck, object, template, &arguments);
 }
 
@@ -216,14 +239,18 @@ static void place_group(struct checker *ck, const struct object_value *object) {
 
 static void place_object(struct checker *ck, const struct object_value *object) {
     const int key = object_alternative(object);
-    if (key == KEY_OBJECT_GROUP) place_group(ck, object);
-    else if (key == KEY_OBJECT_USE) place_use(ck, object);
-    else if (key >= 0 && is_live(ck) && count_object(ck, object)) ck->input->sink->shape(ck->input->sink->context, object);
+    if (key == KEY_OBJECT_GROUP)
+        place_group(ck, object);
+    else if (key == KEY_OBJECT_USE)
+        place_use(ck, object);
+    else if (key >= 0 && is_live(ck) && count_object(ck, object))
+        ck->input->sink->shape(ck->input->sink->context, object);
 }
 
 /* Checks what is not placed: once is enough. */
 static void rehearse(struct checker *ck, const struct node *node) {
-    struct node *n = (struct node *)node_resolve(node); /* remembers that it was checked, and means what it meant */
+    struct node *n =
+        (struct node *)node_resolve(node); /* remembers that it was checked, and means what it meant */
     if (n->rehearsed) return;
     const bool outer = ck->rehearsing;
     n->rehearsed = true;
@@ -240,7 +267,8 @@ static void place_turn(struct checker *ck, void *context) {
     if (!place_count_step(ck, node)) return;
     const struct arena_mark before = arena_mark(ck->arena);
     bool holds = true;
-    const enum quantity_result known = when && !node_is_null(when) ? loop_condition(ck, when, &holds) : QUANTITY_OK;
+    const enum quantity_result known =
+        when && !node_is_null(when) ? loop_condition(ck, when, &holds) : QUANTITY_OK;
     if (ck->rehearsing || (known == QUANTITY_OK && !holds)) {
         rehearse(ck, node);
     } else if (known == QUANTITY_OK) {
@@ -275,8 +303,13 @@ void place_item(struct checker *ck, const struct node *node) {
     }
     const struct node *loop = n->kind == NODE_MAPPING ? node_get(n, "for") : NULL;
     const struct binding *b = n->kind == NODE_SCALAR && !n->quoted ? scope_find(ck, n->text) : NULL;
-    if (b) diag_error(ck->diag, node->span, "not-a-mapping", "expected an object, found %s", found_quantity(ck, node, &b->quantity));
-    else if (n->kind != NODE_MAPPING) report_no_mapping(ck, object_kind(), node);
-    else if (!loop || node_is_null(loop)) place_turn(ck, (void *)node);
-    else loop_run(ck, loop, place_turn, (void *)node);
+    if (b)
+        diag_error(ck->diag, node->span, "not-a-mapping", "expected an object, found %s",
+                   found_quantity(ck, node, &b->quantity));
+    else if (n->kind != NODE_MAPPING)
+        report_no_mapping(ck, object_kind(), node);
+    else if (!loop || node_is_null(loop))
+        place_turn(ck, (void *)node);
+    else
+        loop_run(ck, loop, place_turn, (void *)node);
 }

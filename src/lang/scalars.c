@@ -29,12 +29,18 @@ bool scalar_is_number(const char *text) {
 static const struct {
     const char *bytes, *name, *plain;
 } lookalikes[] = {
-    {"\xe2\x88\x92", "a typographic minus (U+2212)", "-"}, {"\xe2\x80\x93", "a dash (U+2013)", "-"},
-    {"\xe2\x80\x94", "a long dash (U+2014)", "-"},         {"\xc2\xa0", "a non-breaking space (U+00A0)", ""},
-    {"\xef\xbc\x8d", "a full-width minus (U+FF0D)", "-"},  {",", "a comma", "."},
-    {"O", "the letter O", "0"},                            {"o", "the letter o", "0"},
-    {"l", "the letter l", "1"},                            {"_", "an underscore", ""},
-    {"f", "an f", ""},                                     {"\xc2\xb0", "a degree sign", ""},
+    {"\xe2\x88\x92", "a typographic minus (U+2212)", "-"},
+    {"\xe2\x80\x93", "a dash (U+2013)", "-"},
+    {"\xe2\x80\x94", "a long dash (U+2014)", "-"},
+    {"\xc2\xa0", "a non-breaking space (U+00A0)", ""},
+    {"\xef\xbc\x8d", "a full-width minus (U+FF0D)", "-"},
+    {",", "a comma", "."},
+    {"O", "the letter O", "0"},
+    {"o", "the letter o", "0"},
+    {"l", "the letter l", "1"},
+    {"_", "an underscore", ""},
+    {"f", "an f", ""},
+    {"\xc2\xb0", "a degree sign", ""},
     {" ", "a space", ""},
 };
 
@@ -51,7 +57,8 @@ static const char *mend_lookalike(struct checker *ck, const char *text, const ch
         if (!hit) continue;
         char *mended = "";
         for (; hit; rest = hit + strlen(from), hit = strstr(rest, from))
-            mended = arena_format(ck->arena, "%s%.*s%s", mended, (int)(hit - rest), rest, lookalikes[i].plain);
+            mended =
+                arena_format(ck->arena, "%s%.*s%s", mended, (int)(hit - rest), rest, lookalikes[i].plain);
         mended = arena_format(ck->arena, "%s%s", mended, rest);
         *what = lookalikes[i].name;
         if (scalar_is_number(mended) && !has_leading_zero(mended)) return mended;
@@ -61,7 +68,11 @@ static const char *mend_lookalike(struct checker *ck, const char *text, const ch
 
 /* 0x1F, 0o17, 0b11. */
 static bool help_base(struct checker *ck, struct diagnostic *d, const char *text) {
-    const int base = text[0] != '0' ? 0 : text[1] == 'x' || text[1] == 'X' ? 16 : text[1] == 'o' ? 8 : text[1] == 'b' ? 2 : 0;
+    const int base = text[0] != '0'                     ? 0
+                     : text[1] == 'x' || text[1] == 'X' ? 16
+                     : text[1] == 'o'                   ? 8
+                     : text[1] == 'b'                   ? 2
+                                                        : 0;
     char *end;
     const unsigned long value = base ? strtoul(text + 2, &end, base) : 0;
     if (!base || *end || end == text + 2) return false;
@@ -73,7 +84,8 @@ static bool help_base(struct checker *ck, struct diagnostic *d, const char *text
 static bool help_lookalike(struct checker *ck, struct diagnostic *d, const char *text) {
     for (size_t i = 0; i < sizeof lookalikes / sizeof *lookalikes; i++) {
         if ((unsigned char)lookalikes[i].bytes[0] < 0x80 || !strstr(text, lookalikes[i].bytes)) continue;
-        diag_help(ck->diag, d, "it has %s in it: write `%s`", lookalikes[i].name, *lookalikes[i].plain ? lookalikes[i].plain : " ");
+        diag_help(ck->diag, d, "it has %s in it: write `%s`", lookalikes[i].name,
+                  *lookalikes[i].plain ? lookalikes[i].plain : " ");
         return true;
     }
     return false;
@@ -91,8 +103,10 @@ static bool help_unit(struct checker *ck, struct diagnostic *d, const char *text
     }
     for (const char *c = unit; *c; c++)
         if (!isalpha((unsigned char)*c)) return false;
-    if (scope_find(ck, unit)) diag_help(ck->diag, d, "to multiply, write `%s * %s`", number, unit);
-    else diag_help(ck->diag, d, "numbers have no unit here: did you mean %s?", number);
+    if (scope_find(ck, unit))
+        diag_help(ck->diag, d, "to multiply, write `%s * %s`", number, unit);
+    else
+        diag_help(ck->diag, d, "numbers have no unit here: did you mean %s?", number);
     return true;
 }
 
@@ -116,49 +130,65 @@ void scalar_help_variable(struct checker *ck, struct diagnostic *d, const char *
     struct variables v = {ck->arena, spelling_begin(text), ""};
     const struct expr_scope scope = scope_names(ck);
     scope.names(scope.context, offer_name, &v);
-    if (scope_needs_animation(ck, text)) diag_help(ck->diag, d, "for `frame`, `t` and `time` add `animation: {frames: 24}`");
-    else if (v.spelling.best) diag_help(ck->diag, d, "did you mean `%s`?", v.spelling.best);
-    else if (*v.all) diag_note(ck->diag, d, "the variables here: %s", v.all);
+    if (scope_needs_animation(ck, text))
+        diag_help(ck->diag, d, "for `frame`, `t` and `time` add `animation: {frames: 24}`");
+    else if (v.spelling.best)
+        diag_help(ck->diag, d, "did you mean `%s`?", v.spelling.best);
+    else if (*v.all)
+        diag_note(ck->diag, d, "the variables here: %s", v.all);
 }
 
 static void help_scalar(struct checker *ck, struct diagnostic *d, const char *text) {
     const char *what = NULL, *mended = mend_lookalike(ck, text, &what);
-    if (mended) diag_help(ck->diag, d, "it has %s in it: did you mean %s?", what, mended);
-    else if (help_base(ck, d, text) || help_unit(ck, d, text) || help_lookalike(ck, d, text)) return;
-    else if (spelling_distance(text, ".inf") <= 1 || spelling_distance(text, ".nan") <= 1 || spelling_distance(text, "-.inf") <= 1)
+    if (mended)
+        diag_help(ck->diag, d, "it has %s in it: did you mean %s?", what, mended);
+    else if (help_base(ck, d, text) || help_unit(ck, d, text) || help_lookalike(ck, d, text))
+        return;
+    else if (spelling_distance(text, ".inf") <= 1 || spelling_distance(text, ".nan") <= 1 ||
+             spelling_distance(text, "-.inf") <= 1)
         diag_help(ck->diag, d, "a number is finite");
-    else if (scope_is_name(text)) scalar_help_variable(ck, d, text);
+    else if (scope_is_name(text))
+        scalar_help_variable(ck, d, text);
 }
 
 /* The text that the variable stands for, which is no number; NULL: it is no such variable. */
 static const struct node *text_of_variable(struct checker *ck, const struct node *n) {
-    const struct binding *b = n->kind == NODE_SCALAR && scope_is_name(n->text) ? scope_find(ck, n->text) : NULL;
+    const struct binding *b =
+        n->kind == NODE_SCALAR && scope_is_name(n->text) ? scope_find(ck, n->text) : NULL;
     const struct node *value = b && b->kind == BINDING_NODE ? node_resolve(b->node) : NULL;
     return value && value->kind == NODE_SCALAR && value->count <= 100 ? value : NULL;
 }
 
-static void report_no_number_in(struct checker *ck, const struct grammar_key *key, const struct node *node, const struct node *text) {
-    struct diagnostic *d = diag_error(ck->diag, node->span, "not-a-number", "`%s`: expected %s, found %s, which is %s", key->name, wanted_number(key), found_text(ck, node), found_text(ck, text));
+static void report_no_number_in(struct checker *ck, const struct grammar_key *key, const struct node *node,
+                                const struct node *text) {
+    struct diagnostic *d =
+        diag_error(ck->diag, node->span, "not-a-number", "`%s`: expected %s, found %s, which is %s",
+                   key->name, wanted_number(key), found_text(ck, node), found_text(ck, text));
     help_scalar(ck, d, text->text);
     diag_related(ck->diag, d, text->span, "its value is here");
 }
 
 /* `value`: what the node is instead; NULL: it has none. */
-static void report_no_number(struct checker *ck, const struct grammar_key *key, const struct node *node, const struct quantity *value) {
+static void report_no_number(struct checker *ck, const struct grammar_key *key, const struct node *node,
+                             const struct quantity *value) {
     if (only_counted(ck, node->span)) return;
     const struct node *n = node_resolve(node), *text = value ? NULL : text_of_variable(ck, n);
     if (text) {
         report_no_number_in(ck, key, node, text);
         return;
     }
-    struct diagnostic *d = diag_error(ck->diag, node->span, "not-a-number", "`%s`: expected %s, found %s", key->name,
-                                      wanted_number(key), value ? found_quantity(ck, node, value) : found_text(ck, node));
+    struct diagnostic *d =
+        diag_error(ck->diag, node->span, "not-a-number", "`%s`: expected %s, found %s", key->name,
+                   wanted_number(key), value ? found_quantity(ck, node, value) : found_text(ck, node));
     if (n->kind == NODE_SEQUENCE && n->count == 3)
-        diag_note(ck->diag, d, "one number serves all three axes here; stretch the object by `scale` in its `transform`");
+        diag_note(ck->diag, d,
+                  "one number serves all three axes here; stretch the object by `scale` in its `transform`");
     if (n->kind == NODE_SEQUENCE && n->count == 1) diag_help(ck->diag, d, "remove the brackets");
     if (n->kind == NODE_SCALAR && n->count <= 100 && !value) help_scalar(ck, d, n->text);
-    if (n->kind == NODE_MAPPING && !value && ck->animation) diag_help(ck->diag, d, "values over time are written {keys: {1: 0, 24: 1}}");
-    if (value && value->count == 3 && n->kind == NODE_SCALAR) diag_help(ck->diag, d, "take a part of it: .x, .y, .z, .r, .g or .b, or its length(v)");
+    if (n->kind == NODE_MAPPING && !value && ck->animation)
+        diag_help(ck->diag, d, "values over time are written {keys: {1: 0, 24: 1}}");
+    if (value && value->count == 3 && n->kind == NODE_SCALAR)
+        diag_help(ck->diag, d, "take a part of it: .x, .y, .z, .r, .g or .b, or its length(v)");
 }
 
 /* A plain decimal: exact where the digits are few enough that their product with a power of ten rounds once
@@ -196,26 +226,35 @@ bool scalar_number(struct checker *ck, const char *text, double *out) {
     return true;
 }
 
-static enum quantity_result report_bad_number(struct checker *ck, const struct grammar_key *key, const struct node *node) {
+static enum quantity_result report_bad_number(struct checker *ck, const struct grammar_key *key,
+                                              const struct node *node) {
     const struct node *n = node_resolve(node);
     if (has_leading_zero(n->text)) {
-        struct diagnostic *d = diag_error(ck->diag, node->span, "leading-zero", "`%s`: a number with a leading zero, found %s", key->name, found_text(ck, node));
-        diag_help(ck->diag, d, "write %.17g; some readers of YAML take a leading zero for base 8", to_double(ck, n->text));
+        struct diagnostic *d =
+            diag_error(ck->diag, node->span, "leading-zero", "`%s`: a number with a leading zero, found %s",
+                       key->name, found_text(ck, node));
+        diag_help(ck->diag, d, "write %.17g; some readers of YAML take a leading zero for base 8",
+                  to_double(ck, n->text));
     } else {
-        diag_error(ck->diag, node->span, "too-large", "`%s`: too large, numbers end at 1.8e308, found %s", key->name, found_text(ck, node));
+        diag_error(ck->diag, node->span, "too-large", "`%s`: too large, numbers end at 1.8e308, found %s",
+                   key->name, found_text(ck, node));
     }
     return QUANTITY_WRONG;
 }
 
 /* Any finite number. */
-static enum quantity_result read_number(struct checker *ck, const struct grammar_key *key, const struct node *node, double *out) {
+static enum quantity_result read_number(struct checker *ck, const struct grammar_key *key,
+                                        const struct node *node, double *out) {
     const struct node *n = node_resolve(node);
     struct quantity q;
     if (n->kind == NODE_SCALAR && scalar_number(ck, n->text, out)) return QUANTITY_OK;
     if (n->kind == NODE_SCALAR && scalar_is_number(n->text)) return report_bad_number(ck, key, node);
-    const bool truth = n->kind == NODE_SCALAR && (strcmp(n->text, "true") == 0 || strcmp(n->text, "false") == 0);
-    enum quantity_result result = n->kind == NODE_SEQUENCE || truth ? QUANTITY_NONE : scope_quantity(ck, key->name, node, &q);
-    if (result == QUANTITY_OK && q.count == 1) *out = q.v[0];
+    const bool truth =
+        n->kind == NODE_SCALAR && (strcmp(n->text, "true") == 0 || strcmp(n->text, "false") == 0);
+    enum quantity_result result =
+        n->kind == NODE_SEQUENCE || truth ? QUANTITY_NONE : scope_quantity(ck, key->name, node, &q);
+    if (result == QUANTITY_OK && q.count == 1)
+        *out = q.v[0];
     else if (result == QUANTITY_OK || result == QUANTITY_NONE) {
         report_no_number(ck, key, node, result == QUANTITY_OK ? &q : NULL);
         result = QUANTITY_WRONG;
@@ -233,22 +272,27 @@ static const char *range_text(struct checker *ck, const struct grammar_key *key)
     const char *unit = key->unit ? arena_format(ck->arena, " %s", key->unit) : "";
     if (key->has_max && key->max == key->min) return arena_format(ck->arena, "%.15g%s", key->min, unit);
     if (key->has_max && !key->has_min) return arena_format(ck->arena, "%.15g%s or less", key->max, unit);
-    if (key->has_max && key->above) return arena_format(ck->arena, "over %.15g, up to %.15g%s", key->min, key->max, unit);
+    if (key->has_max && key->above)
+        return arena_format(ck->arena, "over %.15g, up to %.15g%s", key->min, key->max, unit);
     if (key->has_max) return arena_format(ck->arena, "%.15g to %.15g%s", key->min, key->max, unit);
     return arena_format(ck->arena, key->above ? "over %.15g" : "%.15g or more", key->min);
 }
 
-static bool in_range(struct checker *ck, const struct grammar_key *key, const struct node *node, double value) {
+static bool in_range(struct checker *ck, const struct grammar_key *key, const struct node *node,
+                     double value) {
     const bool low = key->has_min && !(key->above ? value > key->min : value >= key->min);
     const bool high = key->has_max && !(value <= key->max);
     if (!low && !high) return true;
     if (only_counted(ck, node->span)) return false;
     const struct node *n = node_resolve(node);
     const bool written = n->kind == NODE_SCALAR && scalar_is_number(n->text);
-    const char *found = written ? found_text(ck, node) : arena_format(ck->arena, "%s, which is %.15g", found_text(ck, node), value);
-    struct diagnostic *d = diag_error(ck->diag, node->span, "out-of-range", "`%s`: must be %s, found %s", key->name, range_text(ck, key), found);
+    const char *found = written ? found_text(ck, node)
+                                : arena_format(ck->arena, "%s, which is %.15g", found_text(ck, node), value);
+    struct diagnostic *d = diag_error(ck->diag, node->span, "out-of-range", "`%s`: must be %s, found %s",
+                                      key->name, range_text(ck, key), found);
     if (high && key->type == GRAMMAR_SIZE)
-        diag_help(ck->diag, d, "a square of that side would take %.3g GiB of memory", 12.0 * value * value / (1 << 30));
+        diag_help(ck->diag, d, "a square of that side would take %.3g GiB of memory",
+                  12.0 * value * value / (1 << 30));
     return false;
 }
 
@@ -267,7 +311,8 @@ bool check_integer(struct checker *ck, const struct grammar_key *key, const stru
     if (result == QUANTITY_UNKNOWN) return take_default(ck, key, out);
     if (result != QUANTITY_OK) return false;
     if (value != floor(value)) {
-        diag_error(ck->diag, node->span, "not-whole", "`%s`: expected a whole number, found %s", key->name, found_text(ck, node));
+        diag_error(ck->diag, node->span, "not-whole", "`%s`: expected a whole number, found %s", key->name,
+                   found_text(ck, node));
         return false;
     }
     if (!in_range(ck, key, node, value)) return false;
@@ -278,9 +323,9 @@ bool check_integer(struct checker *ck, const struct grammar_key *key, const stru
 /* ---- Words ---- */
 
 bool scalar_help_truth(struct checker *ck, struct diagnostic *d, const char *word) {
-    static const char *const words[][2] = {{"yes", "true"}, {"on", "true"},   {"y", "true"},    {"1", "true"},
-                                           {"no", "false"}, {"off", "false"}, {"n", "false"},   {"0", "false"},
-                                           {"true", "true"}, {"false", "false"}};
+    static const char *const words[][2] = {
+        {"yes", "true"},  {"on", "true"}, {"y", "true"},  {"1", "true"},    {"no", "false"},
+        {"off", "false"}, {"n", "false"}, {"0", "false"}, {"true", "true"}, {"false", "false"}};
     for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
         if (spelling_distance(word, words[i][0]) != 0) continue;
         diag_help(ck->diag, d, "write `%s`", words[i][1]);
@@ -290,7 +335,9 @@ bool scalar_help_truth(struct checker *ck, struct diagnostic *d, const char *wor
 }
 
 /* 0 and 1 are no booleans as they stand: they were meant to be words. */
-static bool is_written_number(const struct node *n) { return n->kind == NODE_SCALAR && scalar_is_number(n->text); }
+static bool is_written_number(const struct node *n) {
+    return n->kind == NODE_SCALAR && scalar_is_number(n->text);
+}
 
 bool check_boolean(struct checker *ck, const struct grammar_key *key, const struct node *node, int *out) {
     const struct node *n = node_resolve(node);
@@ -299,14 +346,18 @@ bool check_boolean(struct checker *ck, const struct grammar_key *key, const stru
         return true;
     }
     struct quantity q;
-    const enum quantity_result result = is_written_number(n) ? QUANTITY_NONE : scope_quantity(ck, key->name, node, &q);
+    const enum quantity_result result =
+        is_written_number(n) ? QUANTITY_NONE : scope_quantity(ck, key->name, node, &q);
     if (result == QUANTITY_UNKNOWN) *out = 0;
-    if (result == QUANTITY_UNKNOWN || result == QUANTITY_WRONG) return result == QUANTITY_UNKNOWN && ck->rehearsing;
+    if (result == QUANTITY_UNKNOWN || result == QUANTITY_WRONG)
+        return result == QUANTITY_UNKNOWN && ck->rehearsing;
     if (result == QUANTITY_OK && q.count == 1) {
         *out = q.v[0] != 0.0;
         return true;
     }
-    struct diagnostic *d = diag_error(ck->diag, node->span, "not-a-boolean", "`%s`: expected true or false, found %s", key->name, found_text(ck, node));
+    struct diagnostic *d =
+        diag_error(ck->diag, node->span, "not-a-boolean", "`%s`: expected true or false, found %s", key->name,
+                   found_text(ck, node));
     if (n->kind == NODE_SCALAR) scalar_help_truth(ck, d, n->text);
     return false;
 }
@@ -324,24 +375,33 @@ static void report_no_choice(struct checker *ck, const struct grammar_key *key, 
     const char *all = "";
     for (int i = 0; key->choices[i]; i++) {
         spelling_offer(&s, key->choices[i]);
-        all = arena_format(ck->arena, "%s%s%s", all, i == 0 ? "" : key->choices[i + 1] ? ", " : " or ", key->choices[i]);
+        all = arena_format(ck->arena, "%s%s%s", all,
+                           i == 0                ? ""
+                           : key->choices[i + 1] ? ", "
+                                                 : " or ",
+                           key->choices[i]);
     }
-    struct diagnostic *d = diag_error(ck->diag, node->span, "not-a-choice", "`%s`: expected %s, found %s", key->name, all, found_text(ck, node));
+    struct diagnostic *d = diag_error(ck->diag, node->span, "not-a-choice", "`%s`: expected %s, found %s",
+                                      key->name, all, found_text(ck, node));
     if (s.best) diag_help(ck->diag, d, "did you mean `%s`?", s.best);
 }
 
 bool check_choice(struct checker *ck, const struct grammar_key *key, const struct node *node, int *out) {
     const struct node *n = node_resolve(node);
     const int index = n->kind == NODE_SCALAR ? find_choice(key, n->text) : -1;
-    if (index >= 0) *out = index;
-    else report_no_choice(ck, key, node);
+    if (index >= 0)
+        *out = index;
+    else
+        report_no_choice(ck, key, node);
     return index >= 0;
 }
 
-bool check_text(struct checker *ck, const struct grammar_key *key, const struct node *node, const char **out) {
+bool check_text(struct checker *ck, const struct grammar_key *key, const struct node *node,
+                const char **out) {
     const struct node *n = node_resolve(node);
     if (n->kind != NODE_SCALAR || n->count == 0) {
-        diag_error(ck->diag, node->span, "not-a-text", "`%s`: expected a text, found %s", key->name, found_text(ck, node));
+        diag_error(ck->diag, node->span, "not-a-text", "`%s`: expected a text, found %s", key->name,
+                   found_text(ck, node));
         return false;
     }
     *out = n->text;

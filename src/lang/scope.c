@@ -24,13 +24,16 @@ static int which_moving(const char *name) {
     return which;
 }
 
-bool scope_needs_animation(const struct checker *ck, const char *name) { return !ck->animation && which_moving(name) < 3; }
+bool scope_needs_animation(const struct checker *ck, const char *name) {
+    return !ck->animation && which_moving(name) < 3;
+}
 
 static const struct binding *find_moving(struct checker *ck, const char *name) {
     const int which = which_moving(name);
     if (which == 3 || !ck->animation) return NULL;
     const double frames = object_number(ck->animation, KEY_ANIMATION_FRAMES);
-    const double fps = object_number(ck->animation, KEY_ANIMATION_FPS), since = (double)ck->input->frame - 1.0;
+    const double fps = object_number(ck->animation, KEY_ANIMATION_FPS),
+                 since = (double)ck->input->frame - 1.0;
     const double values[] = {since + 1.0, since / frames, since / fps};
     struct binding *b = arena_alloc(ck->arena, sizeof *b);
     *b = (struct binding){.name = moving[which], .quantity = {1, {values[which]}}};
@@ -105,7 +108,9 @@ static void list_names(void *context, void (*each)(void *to, const char *name), 
     for (int i = 0; i < 3; i++) each(to, moving[i]);
 }
 
-struct expr_scope scope_names(struct checker *ck) { return (struct expr_scope){ck, find_quantity, list_names}; }
+struct expr_scope scope_names(struct checker *ck) {
+    return (struct expr_scope){ck, find_quantity, list_names};
+}
 
 /* ---- Quantities ---- */
 
@@ -115,8 +120,10 @@ static struct span span_within(const struct node *n, size_t offset, size_t lengt
     for (size_t i = 0; i < n->count; i++) {
         if (((unsigned char)n->text[i] & 0xc0) == 0x80) continue;
         all++;
-        if (i < offset) before++;
-        else if (i < offset + length) within++;
+        if (i < offset)
+            before++;
+        else if (i < offset + length)
+            within++;
     }
     const uint32_t quote = n->quoted ? 1 : 0;
     if (n->span.length != all + 2 * quote) return n->span;
@@ -126,12 +133,16 @@ static struct span span_within(const struct node *n, size_t offset, size_t lengt
     return span;
 }
 
-static enum quantity_result report(struct checker *ck, const char *what, const struct node *n, const struct expr_error *error) {
+static enum quantity_result report(struct checker *ck, const char *what, const struct node *n,
+                                   const struct expr_error *error) {
     if (report_cut(ck, what, n)) return QUANTITY_WRONG;
-    struct diagnostic *d = diag_error(ck->diag, span_within(n, error->offset, error->length), error->code, "`%s`: %s", what, error->message);
-    if (strcmp(error->code, "unknown-variable") == 0 && scope_needs_animation(ck, arena_text(ck->arena, n->text + error->offset, error->length)))
+    struct diagnostic *d = diag_error(ck->diag, span_within(n, error->offset, error->length), error->code,
+                                      "`%s`: %s", what, error->message);
+    if (strcmp(error->code, "unknown-variable") == 0 &&
+        scope_needs_animation(ck, arena_text(ck->arena, n->text + error->offset, error->length)))
         diag_help(ck->diag, d, "for `frame`, `t` and `time` add `animation: {frames: 24}`");
-    else if (error->help) diag_help(ck->diag, d, "%s", error->help);
+    else if (error->help)
+        diag_help(ck->diag, d, "%s", error->help);
     return QUANTITY_WRONG;
 }
 
@@ -148,21 +159,24 @@ static const struct expr *parse(struct checker *ck, const struct node *n, struct
 /* Whether somebody who wrote this meant to compute something. */
 static bool looks_computed(const struct node *n) {
     if (n->count > 0 && n->text[0] == '#') return false;
-    if (n->text[strspn(n->text, "+-.0123456789 ")] == '%' && n->text[n->count - 1] == '%') return false; /* a percentage */
+    if (n->text[strspn(n->text, "+-.0123456789 ")] == '%' && n->text[n->count - 1] == '%')
+        return false; /* a percentage */
     for (const char *c = n->text; *c; c++)
         if (iscntrl((unsigned char)*c)) return false;
     return strpbrk(n->text, "*/()<>?^=&|[%") || strstr(n->text, " +") || strstr(n->text, " -");
 }
 
-static enum quantity_result rehearse(struct checker *ck, const struct expr *expr, const struct expr_scope *scope,
-                                     struct quantity *out, struct expr_error *error) {
+static enum quantity_result rehearse(struct checker *ck, const struct expr *expr,
+                                     const struct expr_scope *scope, struct quantity *out,
+                                     struct expr_error *error) {
     const enum expr_result names = expr_check(expr, scope, ck->arena, error);
     if (names == EXPR_WRONG) return QUANTITY_WRONG;
     const enum expr_result value = expr_evaluate(expr, scope, ck->arena, out, error);
     return value == EXPR_OK ? QUANTITY_OK : value == EXPR_WAIT ? QUANTITY_UNKNOWN : QUANTITY_WRONG;
 }
 
-static enum quantity_result scalar_quantity(struct checker *ck, const char *what, const struct node *n, struct quantity *out) {
+static enum quantity_result scalar_quantity(struct checker *ck, const char *what, const struct node *n,
+                                            struct quantity *out) {
     struct expr_error error = {0};
     if (n->count == 0) return QUANTITY_NONE;
     const struct expr *expr = parse(ck, n, &error);
@@ -176,13 +190,15 @@ static enum quantity_result scalar_quantity(struct checker *ck, const char *what
         const enum expr_result value = expr_evaluate(expr, &scope, ck->arena, out, &error);
         result = value == EXPR_OK ? QUANTITY_OK : value == EXPR_WAIT ? QUANTITY_UNKNOWN : QUANTITY_WRONG;
     }
-    if (result == QUANTITY_UNKNOWN && ck->diag->errors != errors) return QUANTITY_WRONG; /* of a variable: reported there */
+    if (result == QUANTITY_UNKNOWN && ck->diag->errors != errors)
+        return QUANTITY_WRONG; /* of a variable: reported there */
     if (result != QUANTITY_WRONG) return result;
     if (expr_name(expr) && !looks_computed(n)) return QUANTITY_NONE; /* a word that is no variable */
     return report(ck, what, n, &error);
 }
 
-static enum quantity_result list_quantity(struct checker *ck, const char *what, const struct node *n, struct quantity *out) {
+static enum quantity_result list_quantity(struct checker *ck, const char *what, const struct node *n,
+                                          struct quantity *out) {
     if (report_cut_in(ck, what, n)) return QUANTITY_WRONG;
     if (n->count < 2 || n->count > 4) return QUANTITY_NONE;
     enum quantity_result all = QUANTITY_OK;
@@ -192,15 +208,18 @@ static enum quantity_result list_quantity(struct checker *ck, const char *what, 
         if (node_resolve(item)->kind != NODE_SCALAR) return QUANTITY_NONE;
         const enum quantity_result result = scope_quantity(ck, what, item, &part);
         if (result == QUANTITY_NONE || result == QUANTITY_WRONG) return result;
-        if (result == QUANTITY_UNKNOWN) all = result;
-        else if (part.count != 1) return QUANTITY_NONE;
+        if (result == QUANTITY_UNKNOWN)
+            all = result;
+        else if (part.count != 1)
+            return QUANTITY_NONE;
         vector.v[vector.count++] = part.v[0];
     }
     *out = vector;
     return all;
 }
 
-enum quantity_result scope_quantity(struct checker *ck, const char *what, const struct node *node, struct quantity *out) {
+enum quantity_result scope_quantity(struct checker *ck, const char *what, const struct node *node,
+                                    struct quantity *out) {
     const struct node *n = node_resolve(node);
     switch (n->kind) {
     case NODE_SCALAR: {
@@ -241,7 +260,8 @@ bool scope_bind(struct checker *ck, const char *name, const struct node *node, s
     } else { /* not of a word alone: `gold` may be a material or a colour */
         const enum quantity_result result = scope_quantity(ck, name, n, &out->quantity);
         if (result == QUANTITY_OK) out->kind = BINDING_QUANTITY;
-        if (result != QUANTITY_NONE) return result == QUANTITY_OK || (result == QUANTITY_UNKNOWN && !ck->waiting);
+        if (result != QUANTITY_NONE)
+            return result == QUANTITY_OK || (result == QUANTITY_UNKNOWN && !ck->waiting);
     }
     out->kind = BINDING_NODE;
     out->scope = snapshot(ck);

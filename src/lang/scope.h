@@ -57,7 +57,8 @@ enum quantity_result {
 
 /* The number, vector or colour that a node is: a number, an expression, a list of 2 to 4 of them, or
  * keyframes. `what` names it in messages. */
-enum quantity_result scope_quantity(struct checker *ck, const char *what, const struct node *node, struct quantity *out);
+enum quantity_result scope_quantity(struct checker *ck, const char *what, const struct node *node,
+                                    struct quantity *out);
 
 /* The variables that there are, for messages and suggestions. */
 struct expr_scope scope_names(struct checker *ck);

@@ -38,7 +38,9 @@ unsigned spelling_distance(const char *a, const char *b) {
     return distance_within(a, m, b, n, SPELLING_MAX);
 }
 
-struct spelling spelling_begin(const char *word) { return (struct spelling){.word = word, .distance = SPELLING_MAX}; }
+struct spelling spelling_begin(const char *word) {
+    return (struct spelling){.word = word, .distance = SPELLING_MAX};
+}
 
 static bool begins_with(const char *text, const char *start, size_t length) {
     for (size_t i = 0; i < length; i++)
@@ -47,7 +49,8 @@ static bool begins_with(const char *text, const char *start, size_t length) {
 }
 
 void spelling_offer(struct spelling *s, const char *candidate) {
-    const size_t m = strlen(s->word), n = strlen(candidate), longer = m > n ? m : n, apart = m > n ? m - n : n - m;
+    const size_t m = strlen(s->word), n = strlen(candidate), longer = m > n ? m : n,
+                 apart = m > n ? m - n : n - m;
     const bool start = m >= 3 && m < n && begins_with(candidate, s->word, m);
     if (longer > SPELLING_MAX || s->distance == 0 || (apart > longer / 3 && !start)) return;
     const unsigned limit = least((unsigned)longer / 3, s->distance - 1); /* what would be better */

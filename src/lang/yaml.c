@@ -9,9 +9,9 @@
 struct anchor {
     const char *name;
     struct node *node;
-    bool open;       /* its collection has not ended: an alias now would be a cycle */
-    double values;   /* of the node, those behind aliases each time */
-    unsigned height; /* collections within each other, the node's own included */
+    bool open;                    /* its collection has not ended: an alias now would be a cycle */
+    double values;                /* of the node, those behind aliases each time */
+    unsigned height;              /* collections within each other, the node's own included */
     const struct anchor *largest; /* of those that it refers to; NULL: none */
 };
 
@@ -46,8 +46,8 @@ struct node *node_get(const struct node *mapping, const char *key) {
 bool node_is_null(const struct node *node) {
     const struct node *n = node_resolve(node);
     return n->kind == NODE_SCALAR && !n->quoted &&
-           (n->count == 0 || strcmp(n->text, "~") == 0 || strcmp(n->text, "null") == 0 || strcmp(n->text, "Null") == 0 ||
-            strcmp(n->text, "NULL") == 0);
+           (n->count == 0 || strcmp(n->text, "~") == 0 || strcmp(n->text, "null") == 0 ||
+            strcmp(n->text, "Null") == 0 || strcmp(n->text, "NULL") == 0);
 }
 
 /* ---- Events and marks ---- */
@@ -62,10 +62,13 @@ static struct span span_at(const struct reader *rd, yaml_mark_t at) { return spa
 /* Where a reader error is, which libyaml gives as an offset in bytes alone. */
 static struct span span_of_offset(const struct reader *rd, size_t offset) {
     struct span span = {rd->source, 0, 0, 1};
-    for (size_t i = 0, line_break; i < offset && i < rd->source->size; i += line_break ? line_break : source_character(rd->source, i)) {
+    for (size_t i = 0, line_break; i < offset && i < rd->source->size;
+         i += line_break ? line_break : source_character(rd->source, i)) {
         line_break = source_break(rd->source, i);
-        if (line_break) span.line++, span.column = 0;
-        else span.column++;
+        if (line_break)
+            span.line++, span.column = 0;
+        else
+            span.column++;
     }
     return span;
 }
@@ -78,7 +81,8 @@ static void keep_problem(struct reader *rd) {
     }
     rd->problem->text = p->problem ? p->problem : "not YAML";
     rd->problem->context = p->context ? p->context : "";
-    rd->problem->at = p->error == YAML_READER_ERROR ? span_of_offset(rd, p->problem_offset) : span_at(rd, p->problem_mark);
+    rd->problem->at =
+        p->error == YAML_READER_ERROR ? span_of_offset(rd, p->problem_offset) : span_at(rd, p->problem_mark);
     rd->problem->context_at = span_at(rd, p->context_mark);
 }
 
@@ -104,14 +108,19 @@ static bool next_event(struct reader *rd) {
 static bool count_node(struct reader *rd, struct span span) {
     rd->values += 1.0;
     if (++rd->nodes <= rd->limits->nodes) return true;
-    diag_error(rd->diag, span, "limit-values", "more than %zu values in one file (the limit `values`)", rd->limits->nodes);
+    diag_error(rd->diag, span, "limit-values", "more than %zu values in one file (the limit `values`)",
+               rd->limits->nodes);
     return false;
 }
 
-static bool nesting_allowed(struct reader *rd, const struct node *node, unsigned height, const struct anchor *alias) {
+static bool nesting_allowed(struct reader *rd, const struct node *node, unsigned height,
+                            const struct anchor *alias) {
     if (rd->nesting + height <= rd->limits->nesting) return true;
-    struct diagnostic *d = diag_error(rd->diag, node->span, "limit-nesting", "more than %u levels of nesting (the limit `nesting`)", rd->limits->nesting);
-    if (alias) diag_related(rd->diag, d, alias->node->span, "`&%s` has %u of them", alias->name, alias->height);
+    struct diagnostic *d =
+        diag_error(rd->diag, node->span, "limit-nesting",
+                   "more than %u levels of nesting (the limit `nesting`)", rd->limits->nesting);
+    if (alias)
+        diag_related(rd->diag, d, alias->node->span, "`&%s` has %u of them", alias->name, alias->height);
     return false;
 }
 
@@ -123,7 +132,9 @@ static const struct anchor *larger(const struct anchor *a, const struct anchor *
 
 static struct anchor *add_anchor(struct reader *rd, const yaml_char_t *name, struct node *node) {
     struct anchor *a = arena_alloc(rd->arena, sizeof *a);
-    *a = (struct anchor){.name = arena_text(rd->arena, (const char *)name, strlen((const char *)name)), .node = node, .open = true};
+    *a = (struct anchor){.name = arena_text(rd->arena, (const char *)name, strlen((const char *)name)),
+                         .node = node,
+                         .open = true};
     table_put(rd->arena, &rd->anchors, a->name, a);
     node->anchor = ++rd->anchor_count;
     return a;
@@ -132,12 +143,17 @@ static struct anchor *add_anchor(struct reader *rd, const yaml_char_t *name, str
 /* How the largest of the aliases comes to its size, from anchor to anchor. */
 static bool report_expansion(struct reader *rd, const struct anchor *largest) {
     enum { CHAIN = 5 };
-    struct diagnostic *d = diag_error(rd->diag, rd->beyond, "limit-values", "aliases make %.6g values of this file, more than %zu (the limit `values`)",
-                                      rd->values, rd->limits->nodes);
+    struct diagnostic *d =
+        diag_error(rd->diag, rd->beyond, "limit-values",
+                   "aliases make %.6g values of this file, more than %zu (the limit `values`)", rd->values,
+                   rd->limits->nodes);
     int i = 0;
     for (const struct anchor *a = largest; a && i < CHAIN; a = a->largest, i++)
-        if (a->largest) diag_related(rd->diag, d, a->node->span, "`&%s` makes %.6g, most of them by `*%s`", a->name, a->values, a->largest->name);
-        else diag_related(rd->diag, d, a->node->span, "`&%s` makes %.6g", a->name, a->values);
+        if (a->largest)
+            diag_related(rd->diag, d, a->node->span, "`&%s` makes %.6g, most of them by `*%s`", a->name,
+                         a->values, a->largest->name);
+        else
+            diag_related(rd->diag, d, a->node->span, "`&%s` makes %.6g", a->name, a->values);
     return false;
 }
 
@@ -145,9 +161,11 @@ static bool report_no_anchor(struct reader *rd, const struct node *node, const c
     struct spelling s = spelling_begin(name);
     for (size_t i = 0; i < rd->anchors.capacity; i++)
         if (rd->anchors.slots[i].name) spelling_offer(&s, rd->anchors.slots[i].name);
-    struct diagnostic *d = diag_error(rd->diag, node->span, "no-anchor", "no anchor `&%.100s` before this alias", name);
+    struct diagnostic *d =
+        diag_error(rd->diag, node->span, "no-anchor", "no anchor `&%.100s` before this alias", name);
     if (!s.best) {
-        diag_help(rd->diag, d, "it repeats what stands behind `&%.100s`; a text that starts with `*` needs quotes", name);
+        diag_help(rd->diag, d,
+                  "it repeats what stands behind `&%.100s`; a text that starts with `*` needs quotes", name);
         return false;
     }
     const struct anchor *a = table_find(&rd->anchors, s.best);
@@ -161,7 +179,8 @@ static bool read_alias(struct reader *rd, struct node *node) {
     const struct anchor *a = table_find(&rd->anchors, name);
     if (!a) return report_no_anchor(rd, node, name);
     if (a->open) {
-        struct diagnostic *d = diag_error(rd->diag, node->span, "alias-in-itself", "`*%s` stands inside the very node that it names", name);
+        struct diagnostic *d = diag_error(rd->diag, node->span, "alias-in-itself",
+                                          "`*%s` stands inside the very node that it names", name);
         diag_related(rd->diag, d, a->node->span, "`&%s` is given here", name);
         return false;
     }
@@ -205,7 +224,10 @@ static void merge_begin(struct reader *rd, struct merge *merge, struct node *int
 static bool count_merged(struct reader *rd, struct span span) {
     enum { FREE = 100000, EACH = 4 };
     if (++rd->merged <= FREE + EACH * rd->nodes) return true;
-    struct diagnostic *d = diag_error(rd->diag, span, "limit-merged", "merge keys (<<) have copied %zu pairs up to here, too many for a file of %zu values", rd->merged, rd->nodes);
+    struct diagnostic *d =
+        diag_error(rd->diag, span, "limit-merged",
+                   "merge keys (<<) have copied %zu pairs up to here, too many for a file of %zu values",
+                   rd->merged, rd->nodes);
     diag_help(rd->diag, d, "use an alias for the whole, without <<");
     return false;
 }
@@ -238,7 +260,9 @@ static bool merge_value(struct reader *rd, struct merge *merge, const struct nod
         ok = node_resolve(item)->kind == NODE_MAPPING;
         if (ok && !merge_pairs(rd, merge, node_resolve(item))) return false;
     }
-    if (!ok) diag_error(rd->diag, value->span, "bad-merge", "`<<` takes a mapping or a list of mappings, as in `<<: *base`");
+    if (!ok)
+        diag_error(rd->diag, value->span, "bad-merge",
+                   "`<<` takes a mapping or a list of mappings, as in `<<: *base`");
     return ok;
 }
 
@@ -325,8 +349,8 @@ static struct node *read_stream_list(struct reader *rd) {
 /* Whether the node that the current event starts, the value of `key` in the root, is the list to stream. */
 static bool is_streamed(const struct reader *rd, const struct node *key) {
     return rd->stream && rd->nesting == 1 && rd->event.type == YAML_SEQUENCE_START_EVENT &&
-           !rd->event.data.sequence_start.anchor && !rd->event.data.sequence_start.tag && key->kind == NODE_SCALAR &&
-           strcmp(key->text, rd->stream->key) == 0;
+           !rd->event.data.sequence_start.anchor && !rd->event.data.sequence_start.tag &&
+           key->kind == NODE_SCALAR && strcmp(key->text, rd->stream->key) == 0;
 }
 
 /* Children up to the event `end`, linked; the current event starts the collection. */
@@ -363,8 +387,10 @@ static bool read_collection(struct reader *rd, struct node *node, bool mapping) 
 
 static bool tag_allowed(struct reader *rd, const yaml_char_t *tag, const struct node *node) {
     const char *core = "tag:yaml.org,2002:";
-    if (!tag || strcmp((const char *)tag, "!") == 0 || strncmp((const char *)tag, core, strlen(core)) == 0) return true;
-    struct diagnostic *d = diag_error(rd->diag, node->span, "tag", "a scene has no tags, found `%.40s`", (const char *)tag);
+    if (!tag || strcmp((const char *)tag, "!") == 0 || strncmp((const char *)tag, core, strlen(core)) == 0)
+        return true;
+    struct diagnostic *d =
+        diag_error(rd->diag, node->span, "tag", "a scene has no tags, found `%.40s`", (const char *)tag);
     diag_help(rd->diag, d, "remove what starts with `!`");
     return false;
 }
@@ -375,7 +401,9 @@ static bool read_scalar(struct reader *rd, struct node *node) {
     const char *text = (const char *)e->data.scalar.value;
     const size_t size = e->data.scalar.length;
     if (memchr(text, '\0', size)) {
-        diag_help(rd->diag, diag_error(rd->diag, node->span, "bad-character", "a text with the character NUL in it"), "remove the `\\0`");
+        diag_help(rd->diag,
+                  diag_error(rd->diag, node->span, "bad-character", "a text with the character NUL in it"),
+                  "remove the `\\0`");
         return false;
     }
     node->kind = NODE_SCALAR;
@@ -390,7 +418,8 @@ static bool read_scalar(struct reader *rd, struct node *node) {
 static void narrow_span(struct node *node, const yaml_event_t *e) {
     uint32_t length = 0;
     for (const char *c = node->text; *c; c++) length += ((unsigned char)*c & 0xc0) != 0x80;
-    if (node->quoted || e->start_mark.line != e->end_mark.line || length == 0 || length >= node->span.length) return;
+    if (node->quoted || e->start_mark.line != e->end_mark.line || length == 0 || length >= node->span.length)
+        return;
     node->span.column += node->span.length - length;
     node->span.length = length;
 }
@@ -426,7 +455,9 @@ static struct node *read_node(struct reader *rd) {
     if (e->type == YAML_ALIAS_EVENT) return read_alias(rd, node) ? node : NULL;
 
     const bool scalar = e->type == YAML_SCALAR_EVENT, mapping = e->type == YAML_MAPPING_START_EVENT;
-    const yaml_char_t *tag = scalar ? e->data.scalar.tag : mapping ? e->data.mapping_start.tag : e->data.sequence_start.tag;
+    const yaml_char_t *tag = scalar    ? e->data.scalar.tag
+                             : mapping ? e->data.mapping_start.tag
+                                       : e->data.sequence_start.tag;
     if (!tag_allowed(rd, tag, node)) return NULL;
     const yaml_char_t *anchor = scalar    ? e->data.scalar.anchor
                                 : mapping ? e->data.mapping_start.anchor
@@ -437,7 +468,8 @@ static struct node *read_node(struct reader *rd) {
 /* ---- Documents ---- */
 
 static bool report_empty(struct reader *rd) {
-    struct diagnostic *d = diag_error(rd->diag, (struct span){rd->source, 0, 0, 1}, "empty-file", "the file is empty");
+    struct diagnostic *d =
+        diag_error(rd->diag, (struct span){rd->source, 0, 0, 1}, "empty-file", "the file is empty");
     diag_help(rd->diag, d, "the smallest scene is:  scene: [{sphere: {}}]");
     return false;
 }
@@ -448,7 +480,8 @@ static bool tag_directives_allowed(struct reader *rd) {
     const char *at = rd->source->text, *end = at + rd->source->size;
     for (int i = 0; (at = memmem(at, (size_t)(end - at), "%TAG", 4)); at++)
         if (++i > MANY) {
-            diag_error(rd->diag, (struct span){rd->source, 0, 0, 1}, "bad-document", "more than %d times %%TAG: a scene has no tags", MANY);
+            diag_error(rd->diag, (struct span){rd->source, 0, 0, 1}, "bad-document",
+                       "more than %d times %%TAG: a scene has no tags", MANY);
             return false;
         }
     return true;
@@ -461,7 +494,8 @@ static struct node *read_stream(struct reader *rd) {
     struct node *root = read_node(rd);
     if (!root || !next_event(rd) /* document end */ || !next_event(rd)) return NULL;
     if (rd->event.type != YAML_STREAM_END_EVENT) {
-        struct diagnostic *d = diag_error(rd->diag, span_at(rd, rd->event.start_mark), "second-document", "a second document in the file");
+        struct diagnostic *d = diag_error(rd->diag, span_at(rd, rd->event.start_mark), "second-document",
+                                          "a second document in the file");
         diag_help(rd->diag, d, "a scene is one document: it would be ignored; remove it, or this `---`");
         return NULL;
     }
@@ -473,7 +507,12 @@ static struct node *read_stream(struct reader *rd) {
 struct node *node_parse(struct arena *arena, struct diagnostics *diag, const struct source *source,
                         const struct node_limits *limits, const struct node_stream *stream,
                         struct node_problem *problem) {
-    struct reader rd = {.arena = arena, .diag = diag, .source = source, .limits = limits, .stream = stream, .problem = problem};
+    struct reader rd = {.arena = arena,
+                        .diag = diag,
+                        .source = source,
+                        .limits = limits,
+                        .stream = stream,
+                        .problem = problem};
     if (!yaml_parser_initialize(&rd.parser)) {
         diag_failure(diag, "out-of-memory", "%s: out of memory", source->name);
         return NULL;

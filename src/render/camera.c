@@ -28,15 +28,16 @@ static double reach(const struct accel *accel, vec3 direction) {
  * half width `tangent` at distance one just hold the scene. A side with the normal n holds it where
  * n . eye >= reach(n); the two are n = +-axis - tangent forward. With `through`, a point to keep in
  * the middle, `place` is its own. `back` is along -forward from the origin. */
-static void stand(const struct accel *accel, const struct view *view, vec3 axis, double tangent, const vec3 *through,
-                  double *place, double *back) {
+static void stand(const struct accel *accel, const struct view *view, vec3 axis, double tangent,
+                  const vec3 *through, double *place, double *back) {
     const vec3 inward = vec3_scale(view->forward, -tangent);
     const double high = reach(accel, vec3_add(inward, axis)), low = reach(accel, vec3_sub(inward, axis));
     *place = through ? vec3_dot(*through, axis) : 0.5 * (high - low);
     *back = box3_upper(high - *place, low + *place) / tangent;
 }
 
-static vec3 perspective_eye(const struct accel *accel, const struct view *view, double tan_x, double tan_y, const vec3 *through) {
+static vec3 perspective_eye(const struct accel *accel, const struct view *view, double tan_x, double tan_y,
+                            const vec3 *through) {
     double x, y, back_x, back_y;
     stand(accel, view, view->right, tan_x / margin, through, &x, &back_x);
     stand(accel, view, view->up, tan_y / margin, through, &y, &back_y);
@@ -70,7 +71,8 @@ static vec3 view_direction(const struct camera *camera, vec3 middle) {
     return vec3_max_abs(to_middle) > 0.0 ? to_middle : (vec3){0, 0, -1};
 }
 
-struct view camera_view(const struct scene *scene, const struct accel *accel, uint32_t width, uint32_t height) {
+struct view camera_view(const struct scene *scene, const struct accel *accel, uint32_t width,
+                        uint32_t height) {
     const struct camera *camera = &scene->camera;
     const box3 bounds = accel_extent(accel);
     const vec3 center = box3_is_bounded(bounds) ? box3_center(bounds) : (vec3){0, 0, 0};
@@ -81,9 +83,12 @@ struct view camera_view(const struct scene *scene, const struct accel *accel, ui
     struct view view = {.orthographic = camera->projection == CAMERA_ORTHOGRAPHIC};
     set_axes(&view, camera, view_direction(camera, middle));
 
-    if (camera->has_eye) view.eye = camera->eye;
-    else if (view.orthographic) view.eye = orthographic_eye(accel, &view, through);
-    else view.eye = perspective_eye(accel, &view, tan_x, tan_y, through);
+    if (camera->has_eye)
+        view.eye = camera->eye;
+    else if (view.orthographic)
+        view.eye = orthographic_eye(accel, &view, through);
+    else
+        view.eye = perspective_eye(accel, &view, tan_x, tan_y, through);
     view.distance = vec3_length(vec3_sub(middle, view.eye));
 
     const double half = !view.orthographic   ? tan_y

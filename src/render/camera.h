@@ -14,7 +14,8 @@ struct view {
 };
 
 /* For a picture of this size. */
-struct view camera_view(const struct scene *scene, const struct accel *accel, uint32_t width, uint32_t height);
+struct view camera_view(const struct scene *scene, const struct accel *accel, uint32_t width,
+                        uint32_t height);
 
 /* The ray through the point (x, y) of the picture, in 0..1 from its top left corner. Its direction
  * is not unit. */

@@ -14,7 +14,9 @@ struct examination {
     uint32_t *placed; /* how many primitives each origin has placed, in all sets */
 };
 
-static struct span span_of(const struct examination *e, uint32_t origin) { return origins_span(&e->scene->origins, origin); }
+static struct span span_of(const struct examination *e, uint32_t origin) {
+    return origins_span(&e->scene->origins, origin);
+}
 
 /* "`king`", or "a sphere". */
 static const char *name_of(const struct examination *e, uint32_t origin) {
@@ -58,12 +60,14 @@ static bool is_among(const struct occurrence *which, const struct solids *solids
 static box3 bounds_of(const struct examination *e, uint32_t number) {
     const struct primitives *p = &e->scene->primitives;
     const primitive_ref ref = p->info[number].ref;
-    if (primitive_ref_kind(ref) == PRIMITIVE_INSTANCE) return accel_placed_bounds(e->accel, primitive_ref_index(ref));
+    if (primitive_ref_kind(ref) == PRIMITIVE_INSTANCE)
+        return accel_placed_bounds(e->accel, primitive_ref_index(ref));
     return shape_bounds(p, ref);
 }
 
 static vec3 corner_of(box3 box, int i) {
-    return (vec3){i & 1 ? box.max.x : box.min.x, i & 2 ? box.max.y : box.min.y, i & 4 ? box.max.z : box.min.z};
+    return (vec3){i & 1 ? box.max.x : box.min.x, i & 2 ? box.max.y : box.min.y,
+                  i & 4 ? box.max.z : box.min.z};
 }
 
 /* ---- What is in view ---- */
@@ -115,7 +119,8 @@ static bool sees_plane(const struct view *view, const struct flat *plane) {
 }
 
 /* Whether the primitive may be in view; if not, whether it is behind the camera. */
-static bool may_be_seen(const struct examination *e, const struct wall walls[WALLS], uint32_t number, bool *behind) {
+static bool may_be_seen(const struct examination *e, const struct wall walls[WALLS], uint32_t number,
+                        bool *behind) {
     const struct primitives *p = &e->scene->primitives;
     const primitive_ref ref = p->info[number].ref;
     *behind = false;
@@ -136,8 +141,10 @@ static void help_look(const struct examination *e, struct diagnostic *d) {
         return;
     }
     const vec3 c = box3_center(bounds);
-    const bool there = vec3_length(vec3_sub(c, e->view.eye)) > 1e-6 * vec3_length(vec3_sub(bounds.max, bounds.min));
-    if (there) diag_help(e->diag, d, "`look_at: [%.3g, %.3g, %.3g]` is the middle of what there is", c.x, c.y, c.z);
+    const bool there =
+        vec3_length(vec3_sub(c, e->view.eye)) > 1e-6 * vec3_length(vec3_sub(bounds.max, bounds.min));
+    if (there)
+        diag_help(e->diag, d, "`look_at: [%.3g, %.3g, %.3g]` is the middle of what there is", c.x, c.y, c.z);
 }
 
 /* Returns whether something may be in view. */
@@ -151,8 +158,10 @@ static bool examine_view(const struct examination *e) {
         all_behind &= behind;
     }
     if (p->count == 0) return false; /* told while it was built */
-    const char *where = all_behind ? "everything is behind the camera" : "everything is beside or behind what the camera sees";
-    struct diagnostic *d = diag_warning(e->diag, e->scene->camera_span, "nothing-in-view", "%s: only the background will be seen", where);
+    const char *where = all_behind ? "everything is behind the camera"
+                                   : "everything is beside or behind what the camera sees";
+    struct diagnostic *d = diag_warning(e->diag, e->scene->camera_span, "nothing-in-view",
+                                        "%s: only the background will be seen", where);
     help_look(e, d);
     return false;
 }
@@ -186,7 +195,9 @@ static void examine_eye(const struct examination *e, const struct solids *around
     for (int i = 0; i < around_eye->count; i++) {
         if (is_room(e, &around_eye->which[i])) continue;
         const uint32_t origin = around_eye->origin[i];
-        struct diagnostic *d = diag_warning(e->diag, e->scene->eye_span, "camera-inside", "the camera is inside of %s: only that from within will be seen", name_of(e, origin));
+        struct diagnostic *d = diag_warning(e->diag, e->scene->eye_span, "camera-inside",
+                                            "the camera is inside of %s: only that from within will be seen",
+                                            name_of(e, origin));
         diag_help(e->diag, d, "move `eye` out of it");
         diag_related(e->diag, d, span_of(e, origin), "the solid is here");
         return;
@@ -202,7 +213,9 @@ static void examine_empty(const struct examination *e, const struct primitives *
         if (form == before || !form_is_empty(form)) continue;
         before = form;
         const bool cut = form->clip.min.x > -INFINITY;
-        struct diagnostic *d = diag_warning(e->diag, span_of(e, p->info[p->quadric_number[i]].origin), "no-effect", "the quadric has no surface%s: nothing will be seen of it", cut ? " within its `bounds`" : "");
+        struct diagnostic *d = diag_warning(
+            e->diag, span_of(e, p->info[p->quadric_number[i]].origin), "no-effect",
+            "the quadric has no surface%s: nothing will be seen of it", cut ? " within its `bounds`" : "");
         diag_help(e->diag, d, "a sphere is {xx: 1, yy: 1, zz: 1, constant: -1}: mind the sign of `constant`");
     }
 }
@@ -244,7 +257,9 @@ static void examine_twins(const struct examination *e) {
         const struct primitive_info *first = &p->info[keys[i - 1].number], *second = &p->info[keys[i].number];
         if (keys[i].hash.high != keys[i - 1].hash.high || keys[i].hash.low != keys[i - 1].hash.low) continue;
         if (is_clear(e->scene, first->material)) continue;
-        struct diagnostic *d = diag_warning(e->diag, span_of(e, second->origin), "no-effect", "this is just where %s of the same size is: it will not be seen", name_of(e, first->origin));
+        struct diagnostic *d = diag_warning(e->diag, span_of(e, second->origin), "no-effect",
+                                            "this is just where %s of the same size is: it will not be seen",
+                                            name_of(e, first->origin));
         diag_help(e->diag, d, "remove or move it");
         diag_related(e->diag, d, span_of(e, first->origin), "the other one is here");
     }
@@ -256,7 +271,8 @@ static bool holds_box(const struct primitives *p, primitive_ref ref, box3 box) {
     if (primitive_ref_kind(ref) == PRIMITIVE_QUADRIC) {
         const struct quadric *q = &p->quadrics[index];
         box3 around = BOX3_EMPTY;
-        for (int i = 0; i < 8; i++) around = box3_add_point(around, affine_point(&q->object_from_world, corner_of(box, i)));
+        for (int i = 0; i < 8; i++)
+            around = box3_add_point(around, affine_point(&q->object_from_world, corner_of(box, i)));
         return form_holds_box(q->form, around);
     }
     for (int i = 0; i < 8; i++)
@@ -277,7 +293,10 @@ static void examine_hidden(const struct examination *e, const struct solids *aro
             const uint32_t other = solids.which[k].number[0];
             if (solids.which[k].depth || other == i || is_among(&solids.which[k], around_eye)) continue;
             if (!holds_box(p, p->info[other].ref, box)) continue;
-            struct diagnostic *d = diag_warning(e->diag, span_of(e, p->info[i].origin), "no-effect", "this is all inside of %s, which is opaque: it will not be seen", name_of(e, p->info[other].origin));
+            struct diagnostic *d =
+                diag_warning(e->diag, span_of(e, p->info[i].origin), "no-effect",
+                             "this is all inside of %s, which is opaque: it will not be seen",
+                             name_of(e, p->info[other].origin));
             diag_related(e->diag, d, span_of(e, p->info[other].origin), "the solid around is here");
             break;
         }
@@ -290,7 +309,8 @@ static void examine_light(const struct examination *e, uint32_t i, const struct 
     const struct light *light = &e->scene->lights[i];
     const struct span span = e->scene->light_spans[i];
     if (!(vec3_max_abs(light->color) > 0.0)) {
-        diag_help(e->diag, diag_warning(e->diag, span, "no-effect", "the light is black: it gives no light"), "give it a `color`, or remove it");
+        diag_help(e->diag, diag_warning(e->diag, span, "no-effect", "the light is black: it gives no light"),
+                  "give it a `color`, or remove it");
         return;
     }
     struct solids solids;
@@ -298,7 +318,9 @@ static void examine_light(const struct examination *e, uint32_t i, const struct 
     solids_at(e, light->at, &solids);
     for (int k = 0; k < solids.count; k++) {
         if (is_among(&solids.which[k], around_eye)) continue;
-        struct diagnostic *d = diag_warning(e->diag, span, "no-effect", "the light is inside of %s, which is opaque: nothing of it comes out", name_of(e, solids.origin[k]));
+        struct diagnostic *d = diag_warning(
+            e->diag, span, "no-effect", "the light is inside of %s, which is opaque: nothing of it comes out",
+            name_of(e, solids.origin[k]));
         diag_help(e->diag, d, "move it out, or make the solid clear by `refraction`");
         diag_related(e->diag, d, span_of(e, solids.origin[k]), "the solid is here");
         return;
@@ -311,7 +333,8 @@ static void count_placed(struct examination *e, const struct primitives *p) {
     for (uint32_t i = 0; i < p->count; i++) e->placed[p->info[i].origin]++;
 }
 
-void examine_scene(const struct scene *scene, const struct accel *accel, bool moves, struct arena *arena, struct diagnostics *diag) {
+void examine_scene(const struct scene *scene, const struct accel *accel, bool moves, struct arena *arena,
+                   struct diagnostics *diag) {
     struct examination e = {.scene = scene, .accel = accel, .arena = arena, .diag = diag};
     struct solids around_eye = {.count = 0};
     e.view = camera_view(scene, accel, scene->settings.width, scene->settings.height);

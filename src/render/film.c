@@ -17,6 +17,8 @@ void monge_film_free(struct monge_film *film) {
     free(film);
 }
 
-struct monge_region monge_film_region(const struct monge_film *film) { return film->region; }
+struct monge_region monge_film_region(const struct monge_film *film) {
+    return film->region;
+}
 
 const float *monge_film_pixels(const struct monge_film *film) { return film->rgb; }

@@ -41,23 +41,29 @@ static uint64_t *inheriting(const struct scene *scene, struct arena *arena) {
         const struct primitives *p = &scene->geometries[g];
         for (uint32_t i = 0; i < p->count; i++) {
             const struct primitive_info *at = &p->info[i];
-            const struct instance *instance = primitive_ref_kind(at->ref) == PRIMITIVE_INSTANCE ? &p->instances[primitive_ref_index(at->ref)] : NULL;
+            const struct instance *instance = primitive_ref_kind(at->ref) == PRIMITIVE_INSTANCE
+                                                  ? &p->instances[primitive_ref_index(at->ref)]
+                                                  : NULL;
             if (!instance && at->material == MATERIAL_INHERITED) many[g] = plus(many[g], 1);
-            if (instance && instance->material == MATERIAL_INHERITED) many[g] = plus(many[g], many[instance->geometry]);
+            if (instance && instance->material == MATERIAL_INHERITED)
+                many[g] = plus(many[g], many[instance->geometry]);
         }
     }
     return many;
 }
 
 /* The primitives of one set, that is placed `often`. */
-static void count_set(struct info *info, const struct scene *scene, const struct primitives *p, uint64_t often, const uint64_t *inherits) {
-    for (uint32_t i = 0; i < p->use_count; i++) info->templates[p->uses[i]].uses = plus(info->templates[p->uses[i]].uses, often);
+static void count_set(struct info *info, const struct scene *scene, const struct primitives *p,
+                      uint64_t often, const uint64_t *inherits) {
+    for (uint32_t i = 0; i < p->use_count; i++)
+        info->templates[p->uses[i]].uses = plus(info->templates[p->uses[i]].uses, often);
     for (uint32_t i = 0; i < p->count; i++) {
         const struct primitive_info *at = &p->info[i];
         const struct origin *origin = &scene->origins.list[at->origin];
         const bool is_instance = primitive_ref_kind(at->ref) == PRIMITIVE_INSTANCE;
         const struct instance *instance = is_instance ? &p->instances[primitive_ref_index(at->ref)] : NULL;
-        struct info_template *template = origin->template == ORIGIN_NO_TEMPLATE ? NULL : &info->templates[origin->template];
+        struct info_template *template =
+            origin->template == ORIGIN_NO_TEMPLATE ? NULL : &info->templates[origin->template];
         if (template) template->bytes += bytes_of(at->ref);
         count(is_instance ? &info->instances : &info->all, often);
         if (!is_instance) count(&info->kinds[origin->kind], often);
@@ -77,6 +83,7 @@ struct info info_count(const struct scene *scene, struct arena *arena) {
     info.templates = arena_array(arena, scene->template_count + 1, sizeof *info.templates);
     for (uint32_t i = 0; i < scene->template_count; i++) info.templates[i].name = scene->templates[i];
     count_set(&info, scene, &scene->primitives, 1, inherits);
-    for (uint32_t g = 0; g < scene->geometry_count; g++) count_set(&info, scene, &scene->geometries[g], often[g], inherits);
+    for (uint32_t g = 0; g < scene->geometry_count; g++)
+        count_set(&info, scene, &scene->geometries[g], often[g], inherits);
     return info;
 }

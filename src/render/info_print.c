@@ -6,13 +6,16 @@
 #include "render/camera.h"
 #include "render/info.h"
 
-static const char *projection_name(const struct view *view) { return view->orthographic ? "orthographic" : "perspective"; }
+static const char *projection_name(const struct view *view) {
+    return view->orthographic ? "orthographic" : "perspective";
+}
 
 static vec3 looked_at(const struct view *view) { return vec3_madd(view->eye, view->distance, view->forward); }
 
 static uint32_t endless(const struct scene *scene) {
     uint32_t planes = 0;
-    for (uint32_t i = 0; i < scene->primitives.flat_count; i++) planes += scene->primitives.flats[i].outline == FLAT_PLANE;
+    for (uint32_t i = 0; i < scene->primitives.flat_count; i++)
+        planes += scene->primitives.flats[i].outline == FLAT_PLANE;
     return planes;
 }
 
@@ -42,7 +45,9 @@ static void print_number(FILE *out, const char *before, uint64_t number, const c
     fprintf(out, "%s%s%s", before, grouped(number, text), after);
 }
 
-static void print_vec3(FILE *out, const char *before, vec3 v) { fprintf(out, "%s[%.4g, %.4g, %.4g]", before, v.x, v.y, v.z); }
+static void print_vec3(FILE *out, const char *before, vec3 v) {
+    fprintf(out, "%s[%.4g, %.4g, %.4g]", before, v.x, v.y, v.z);
+}
 
 static void print_bytes(FILE *out, uint64_t bytes) {
     static const char *const units[] = {"bytes", "KiB", "MiB", "GiB"};
@@ -57,15 +62,21 @@ static void print_picture(const struct scene *scene, const struct accel *accel, 
     const struct view view = camera_view(scene, accel, s->width, s->height);
     const box3 bounds = accel_extent(accel);
     const uint32_t planes = endless(scene);
-    fprintf(out, "image       %" PRIu32 " x %" PRIu32 ", %" PRIu32 " sample%s a pixel, %u bits\n", s->width, s->height, s->samples, s->samples == 1 ? "" : "s", s->bits);
+    fprintf(out, "image       %" PRIu32 " x %" PRIu32 ", %" PRIu32 " sample%s a pixel, %u bits\n", s->width,
+            s->height, s->samples, s->samples == 1 ? "" : "s", s->bits);
     fprintf(out, "camera      %s", projection_name(&view));
     print_vec3(out, ", eye: ", view.eye);
     print_vec3(out, ", look_at: ", looked_at(&view));
     print_vec3(out, ", up: ", vec3_normalize(view.up));
-    if (view.orthographic) fprintf(out, ", height: %.4g\n", 2.0 * vec3_length(view.up));
-    else fprintf(out, ", fov: %.4g\n", scene->camera.fov_deg);
-    if (scene->default_lights) fputs("lights      the default ones\n", out);
-    else fprintf(out, "lights      %" PRIu32 " point, %" PRIu32 " ambient\n", lights_of(scene, LIGHT_POINT), lights_of(scene, LIGHT_AMBIENT));
+    if (view.orthographic)
+        fprintf(out, ", height: %.4g\n", 2.0 * vec3_length(view.up));
+    else
+        fprintf(out, ", fov: %.4g\n", scene->camera.fov_deg);
+    if (scene->default_lights)
+        fputs("lights      the default ones\n", out);
+    else
+        fprintf(out, "lights      %" PRIu32 " point, %" PRIu32 " ambient\n", lights_of(scene, LIGHT_POINT),
+                lights_of(scene, LIGHT_AMBIENT));
     fputs("bounds      ", out);
     if (box3_is_bounded(bounds)) {
         print_vec3(out, "", bounds.min);
@@ -92,7 +103,8 @@ static void print_counts(const struct info *info, const struct scene *scene, FIL
     if (scene->geometry_count) {
         print_number(out, "geometries  ", scene->geometry_count, "");
         print_number(out, ", in ", info->instances.stored, " instances");
-        if (info->instances.placed != info->instances.stored) print_number(out, ", placed ", info->instances.placed, "");
+        if (info->instances.placed != info->instances.stored)
+            print_number(out, ", placed ", info->instances.placed, "");
         fputc('\n', out);
     }
     fputs("memory      ", out);
@@ -108,12 +120,15 @@ static void print_materials(const struct info *info, const struct scene *scene, 
     print_number(out, "materials   ", scene->material_count, "\n");
     for (uint32_t i = 0; i < scene->material_count; i++) {
         if (scene->material_info[i].name) {
-            print_count(out, scene->material_info[i].name, &info->materials[i], info->materials[i].stored == 1 ? " time" : " times");
+            print_count(out, scene->material_info[i].name, &info->materials[i],
+                        info->materials[i].stored == 1 ? " time" : " times");
             continue;
         }
         unnamed++;
         others.stored += info->materials[i].stored;
-        others.placed = others.placed > UINT64_MAX - info->materials[i].placed ? UINT64_MAX : others.placed + info->materials[i].placed;
+        others.placed = others.placed > UINT64_MAX - info->materials[i].placed
+                            ? UINT64_MAX
+                            : others.placed + info->materials[i].placed;
     }
     if (unnamed) print_count(out, "(without a name)", &others, others.stored == 1 ? " time" : " times");
 }
@@ -128,7 +143,8 @@ static void print_templates(const struct info *info, FILE *out) {
         fprintf(out, "  %-18s", t->name);
         print_number(out, "used ", t->uses, t->uses == 1 ? " time" : " times");
         print_number(out, ", primitives ", t->primitives.stored, "");
-        if (t->primitives.placed != t->primitives.stored) print_number(out, ", placed ", t->primitives.placed, "");
+        if (t->primitives.placed != t->primitives.stored)
+            print_number(out, ", placed ", t->primitives.placed, "");
         fputs(", ", out);
         print_bytes(out, t->bytes);
         fputc('\n', out);
@@ -144,8 +160,10 @@ static void print_members(const struct outline_node *node, int depth, const char
         if (n->count > 1) print_number(out, " x", n->count, "");
         if (n->loop) fprintf(out, " for %s", n->loop);
         if (n->material) fprintf(out, ", %s", n->material);
-        if (file && n->file == file) fprintf(out, "  %" PRIu32 ":%" PRIu32 "\n", n->line, n->column);
-        else fprintf(out, "  %s:%" PRIu32 ":%" PRIu32 "\n", n->file, n->line, n->column);
+        if (file && n->file == file)
+            fprintf(out, "  %" PRIu32 ":%" PRIu32 "\n", n->line, n->column);
+        else
+            fprintf(out, "  %s:%" PRIu32 ":%" PRIu32 "\n", n->file, n->line, n->column);
         print_members(n, depth + 1, n->file, out);
     }
     if (!node->more) return;
@@ -153,7 +171,8 @@ static void print_members(const struct outline_node *node, int depth, const char
     print_number(out, "... and ", node->more, " more\n");
 }
 
-void info_print(const struct info *info, const struct scene *scene, const struct accel *accel, const struct outline *outline, FILE *out) {
+void info_print(const struct info *info, const struct scene *scene, const struct accel *accel,
+                const struct outline *outline, FILE *out) {
     print_picture(scene, accel, out);
     print_counts(info, scene, out);
     print_materials(info, scene, out);
@@ -200,8 +219,10 @@ static void write_picture(struct json *json, const struct scene *scene, const st
     write_vec3(json, "eye", view.eye);
     write_vec3(json, "look_at", looked_at(&view));
     write_vec3(json, "up", vec3_normalize(view.up));
-    if (view.orthographic) write_real(json, "height", 2.0 * vec3_length(view.up));
-    else write_real(json, "fov", scene->camera.fov_deg);
+    if (view.orthographic)
+        write_real(json, "height", 2.0 * vec3_length(view.up));
+    else
+        write_real(json, "fov", scene->camera.fov_deg);
     json_close(json, '}');
     json_open(json, "lights", '{');
     json_word(json, "default", scene->default_lights ? "true" : "false");
@@ -266,7 +287,8 @@ static void write_members(struct json *json, const struct outline_node *node) {
     write_integer(json, "more", node->more);
 }
 
-void info_write_json(const struct info *info, const struct scene *scene, const struct accel *accel, const struct outline *outline, FILE *out) {
+void info_write_json(const struct info *info, const struct scene *scene, const struct accel *accel,
+                     const struct outline *outline, FILE *out) {
     struct json json = {.out = out};
     json_open(&json, NULL, '{');
     write_picture(&json, scene, accel);

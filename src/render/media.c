@@ -1,6 +1,8 @@
 #include "render/media.h"
 
-double media_index(const struct media *media) { return media->count ? media->inside[media->count - 1].index : 1.0; }
+double media_index(const struct media *media) {
+    return media->count ? media->inside[media->count - 1].index : 1.0;
+}
 
 static const struct flat *as_plane(const struct primitives *p, primitive_ref ref) {
     if (primitive_ref_kind(ref) != PRIMITIVE_FLAT) return NULL;
@@ -46,7 +48,8 @@ struct nesting {
 /* How far along the ray the body ends; negative when its origin is not inside of it. */
 static double exit_distance(const struct primitives *p, primitive_ref ref, ray r) {
     const struct flat *plane = as_plane(p, ref);
-    const bool inside = plane ? affine_point(&plane->object_from_world, r.org).z < 0.0 : shape_contains(p, ref, r.org);
+    const bool inside =
+        plane ? affine_point(&plane->object_from_world, r.org).z < 0.0 : shape_contains(p, ref, r.org);
     struct crossing out;
     if (!inside) return -1.0;
     return shape_first_crossing(p, ref, r, 0.0, INFINITY, &out) ? out.t : INFINITY;

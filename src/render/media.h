@@ -12,7 +12,7 @@ struct media {
     int count;
     struct {
         const struct occurrence *which; /* of the body; kept by whoever entered it */
-        double index;              /* of refraction */
+        double index;                   /* of refraction */
     } inside[MEDIA_MAX];
 };
 

@@ -19,8 +19,8 @@ struct rendering {
     uint32_t tiles_across, tile_count;
     atomic_uint next_tile;
     atomic_uint_fast64_t pixels_done;
-    atomic_flag reporting; /* a thread is in job->progress */
-    const vec3 *samples;   /* settings.samples places within a pixel, x and y in 0..1 */
+    atomic_flag reporting;     /* a thread is in job->progress */
+    const vec3 *samples;       /* settings.samples places within a pixel, x and y in 0..1 */
     struct media_origin media; /* at the eye, for a perspective camera */
     atomic_uint_fast64_t rays[MONGE_RAY_KINDS];
 };
@@ -48,7 +48,8 @@ static vec3 *sample_places(struct arena *arena, uint32_t count) {
  * horizon, and a weak one in its eye, whose shadows it cannot see. */
 static struct light *default_lights(struct arena *arena, const struct view *view, uint32_t *count) {
     struct light *lights = arena_array(arena, 2, sizeof *lights);
-    const vec3 across = vec3_madd(vec3_scale(vec3_normalize(view->right), -0.6), 0.8, vec3_normalize(view->up));
+    const vec3 across =
+        vec3_madd(vec3_scale(vec3_normalize(view->right), -0.6), 0.8, vec3_normalize(view->up));
     const vec3 to_key = vec3_scale(vec3_sub(across, view->forward), 1000.0 * view->distance);
     lights[0] = (struct light){LIGHT_POINT, vec3_add(view->eye, to_key), {0.95, 0.93, 0.9}};
     lights[1] = (struct light){LIGHT_POINT, view->eye, {0.15, 0.17, 0.2}};
@@ -65,8 +66,10 @@ static void set_lights(struct arena *arena, struct rendering *rd, const struct s
     }
     struct light *points = arena_array(arena, scene->light_count ? scene->light_count : 1, sizeof *points);
     for (uint32_t i = 0; i < scene->light_count; i++) {
-        if (scene->lights[i].kind == LIGHT_POINT) points[tracer->light_count++] = scene->lights[i];
-        else tracer->ambient = vec3_add(tracer->ambient, scene->lights[i].color);
+        if (scene->lights[i].kind == LIGHT_POINT)
+            points[tracer->light_count++] = scene->lights[i];
+        else
+            tracer->ambient = vec3_add(tracer->ambient, scene->lights[i].color);
     }
     tracer->lights = points;
 }
@@ -83,7 +86,8 @@ static void render_pixel(const struct rendering *rd, uint32_t x, uint32_t y, uin
         const ray r = camera_ray(&rd->view, px, py);
         struct media_origin here;
         if (rd->view.orthographic) media_at(rd->tracer.scene, rd->tracer.accel, r, &here);
-        sum = vec3_add(sum, trace_ray(&rd->tracer, r, rd->view.orthographic ? &here.media : &rd->media.media, rays));
+        sum = vec3_add(
+            sum, trace_ray(&rd->tracer, r, rd->view.orthographic ? &here.media : &rd->media.media, rays));
     }
     float *pixel = film_pixel(rd->film, x, y);
     pixel[0] = (float)(sum.x / s->samples);
@@ -98,7 +102,9 @@ static void report(struct rendering *rd, uint64_t done) {
     atomic_flag_clear(&rd->reporting);
 }
 
-static bool is_cancelled(const struct rendering *rd) { return rd->job->cancel && atomic_load(rd->job->cancel); }
+static bool is_cancelled(const struct rendering *rd) {
+    return rd->job->cancel && atomic_load(rd->job->cancel);
+}
 
 static void render_tile(struct rendering *rd, uint32_t tile, uint64_t rays[MONGE_RAY_KINDS]) {
     const struct monge_region *region = &rd->film->region;
@@ -135,7 +141,9 @@ bool render_film(const struct scene *scene, const struct accel *accel, const str
         return false;
     }
     struct rendering rd = {.tracer = {.scene = scene, .accel = accel, .settings = film->settings},
-                           .job = job, .film = film, .reporting = ATOMIC_FLAG_INIT};
+                           .job = job,
+                           .film = film,
+                           .reporting = ATOMIC_FLAG_INIT};
     rd.view = camera_view(scene, accel, film->settings.width, film->settings.height);
     rd.samples = sample_places(&arena, film->settings.samples);
     media_at(scene, accel, (ray){rd.view.eye, rd.view.forward}, &rd.media);

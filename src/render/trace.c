@@ -11,8 +11,8 @@ struct path {
     const struct tracer *tracer;
     uint64_t *rays;
     const struct media *media; /* at the origin of its ray */
-    unsigned depth; /* generation of its ray, from 1 */
-    vec3 weight;    /* by which its light reaches the pixel */
+    unsigned depth;            /* generation of its ray, from 1 */
+    vec3 weight;               /* by which its light reaches the pixel */
 };
 
 static vec3 follow(struct path *path, ray r);
@@ -50,7 +50,9 @@ struct meeting {
 };
 
 /* The surface's point, moved by its error to the side that `normal` points to. */
-static vec3 leave_point(const struct meeting *m, vec3 normal) { return vec3_madd(m->surface.point, m->surface.error, normal); }
+static vec3 leave_point(const struct meeting *m, vec3 normal) {
+    return vec3_madd(m->surface.point, m->surface.error, normal);
+}
 
 /* cosine to the power of the exponent, for a cosine of 0..1. Nothing where that is less than
  * exp(-40), by cosine^n <= exp(-n (1 - cosine)): most of a surface is far from its highlight. */
@@ -59,15 +61,19 @@ static double highlight_power(double cosine, double exponent) {
 }
 
 /* The light that one point light adds at a meeting. */
-static vec3 shade_light(const struct path *path, const struct meeting *m, vec3 normal, const struct light *light) {
+static vec3 shade_light(const struct path *path, const struct meeting *m, vec3 normal,
+                        const struct light *light) {
     const struct tracer *tracer = path->tracer;
     const vec3 to_light = vec3_normalize(vec3_sub(light->at, m->surface.point));
     const double cosine = vec3_dot(normal, to_light);
     vec3 color = vec3_scale(m->material->diffuse, cosine > 0.0 ? cosine : 0.0);
-    if (tracer->settings.shading == MONGE_SHADING_PHONG && (cosine > 0.0 || tracer->scene->highlight_always)) {
+    if (tracer->settings.shading == MONGE_SHADING_PHONG &&
+        (cosine > 0.0 || tracer->scene->highlight_always)) {
         const vec3 mirrored = vec3_sub(vec3_scale(normal, 2.0 * cosine), to_light);
         const double highlight = -vec3_dot(mirrored, m->dir);
-        if (highlight > 0.0) color = vec3_madd(color, highlight_power(highlight, m->material->shininess), m->material->specular);
+        if (highlight > 0.0)
+            color =
+                vec3_madd(color, highlight_power(highlight, m->material->shininess), m->material->specular);
     }
     if (!(vec3_max_abs(color) > 0.0)) return color;
     color = vec3_mul(color, light->color);
@@ -88,7 +94,8 @@ static vec3 shade_local(const struct path *path, const struct meeting *m) {
 }
 
 /* What a secondary ray brings, times `factor`. `media` is at the ray's origin. */
-static vec3 follow_secondary(const struct path *from, ray r, vec3 factor, const struct media *media, enum monge_ray kind) {
+static vec3 follow_secondary(const struct path *from, ray r, vec3 factor, const struct media *media,
+                             enum monge_ray kind) {
     struct path path = {from->tracer, from->rays, media, from->depth + 1, vec3_mul(from->weight, factor)};
     if (vec3_max_abs(path.weight) < least_weight) return vec3_all(0.0);
     path.rays[kind]++;
@@ -134,18 +141,21 @@ static vec3 follow(struct path *path, ray r) {
     const struct tracer *tracer = path->tracer;
     const struct scene *scene = tracer->scene;
     struct hit hit;
-    if (!accel_nearest(tracer->accel, r, 0.0, INFINITY, &hit)) return background_color(&scene->background, vec3_normalize(r.dir));
+    if (!accel_nearest(tracer->accel, r, 0.0, INFINITY, &hit))
+        return background_color(&scene->background, vec3_normalize(r.dir));
     struct meeting m = {.surface = accel_surface(tracer->accel, r, &hit),
                         .material = &scene->materials[hit.material],
                         .dir = vec3_normalize(r.dir)};
     if (tracer->settings.shading == MONGE_SHADING_SIGNATURE) return m.material->diffuse;
     m.outside = vec3_dot(m.dir, m.surface.normal) < 0.0;
     const vec3 local = shade_local(path, &m);
-    if (tracer->settings.shading != MONGE_SHADING_PHONG || path->depth >= tracer->settings.depth) return local;
+    if (tracer->settings.shading != MONGE_SHADING_PHONG || path->depth >= tracer->settings.depth)
+        return local;
     return vec3_add(local, shade_secondary(path, &m, &hit));
 }
 
-vec3 trace_ray(const struct tracer *tracer, ray r, const struct media *media, uint64_t rays[MONGE_RAY_KINDS]) {
+vec3 trace_ray(const struct tracer *tracer, ray r, const struct media *media,
+               uint64_t rays[MONGE_RAY_KINDS]) {
     struct path path = {tracer, rays, media, 1, vec3_all(1.0)};
     rays[MONGE_RAY_CAMERA]++;
     return follow(&path, r);

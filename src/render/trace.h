@@ -12,7 +12,7 @@ struct tracer {
     struct monge_settings settings;
     const struct light *lights; /* point lights alone */
     uint32_t light_count;
-    vec3 ambient;         /* the sum of the ambient lights */
+    vec3 ambient; /* the sum of the ambient lights */
 };
 
 /* The linear colour seen along the ray, whose direction need not be unit. `media` is what its origin

@@ -16,19 +16,23 @@ void *builder_grow(struct builder *b, void *array, uint32_t count, uint32_t *roo
 static affine world_from_object(struct builder *b, const struct object_value *object) {
     affine parent_from_node = AFFINE_IDENTITY;
     if (!object_has(object, KEY_OBJECT_TRANSFORM)) return b->level->world_from_node;
-    transform_build(b, object_list(object, KEY_OBJECT_TRANSFORM), &parent_from_node); /* a wrong one is reported: go on */
+    transform_build(b, object_list(object, KEY_OBJECT_TRANSFORM),
+                    &parent_from_node); /* a wrong one is reported: go on */
     return affine_compose(b->level->world_from_node, parent_from_node);
 }
 
-static const struct object_value *material_of_object(const struct builder *b, const struct object_value *object) {
+static const struct object_value *material_of_object(const struct builder *b,
+                                                     const struct object_value *object) {
     const struct object_value *own = object_object(object, KEY_OBJECT_MATERIAL);
     return own ? own : b->level->material;
 }
 
 void level_push(struct builder *b, struct level level) {
     struct level *place = b->free_levels;
-    if (place) b->free_levels = place->outer;
-    else place = arena_alloc(b->arena, sizeof *place);
+    if (place)
+        b->free_levels = place->outer;
+    else
+        place = arena_alloc(b->arena, sizeof *place);
     *place = level;
     place->outer = b->level;
     b->level = place;
@@ -43,7 +47,8 @@ void level_open(struct builder *b, const struct object_value *object, struct pla
                                  .own_span = object_span(object, KEY_OBJECT_MATERIAL),
                                  .count = b->set->primitives.count,
                                  .name = name ? name : b->level->name,
-                                 .template = object_has(object, KEY_OBJECT_USE) ? place_template(b, object) : b->level->template});
+                                 .template = object_has(object, KEY_OBJECT_USE) ? place_template(b, object)
+                                                                                : b->level->template});
 }
 
 void level_close(struct builder *b) {
@@ -62,22 +67,32 @@ static void add_shape(void *context, const struct object_value *object) {
     const struct object_value *shape = object_object(object, object_alternative(object));
     if (!shape) return;
     place_origin(b, object);
-    shape_build(b, shape, bounds, world_from_object(b, object), material_index(b, material_of_object(b, object)));
+    shape_build(b, shape, bounds, world_from_object(b, object),
+                material_index(b, material_of_object(b, object)));
 }
 
 static void open_group(void *context, const struct object_value *object) {
     struct builder *b = context;
     const struct object_value *bounds = object_object(object, KEY_OBJECT_BOUNDS);
-    if (bounds) diag_help(b->diag, diag_error(b->diag, bounds->span, "bounds-of-no-quadric", "`bounds` cut a quadric; a group has none"), "move them to the quadric");
+    if (bounds)
+        diag_help(b->diag,
+                  diag_error(b->diag, bounds->span, "bounds-of-no-quadric",
+                             "`bounds` cut a quadric; a group has none"),
+                  "move them to the quadric");
     level_open(b, object, NULL);
 }
 
 static void close_group(void *context) { level_close(context); }
 
-static enum lang_use open_use(void *context, const struct object_value *object, const struct hash *contents, bool exact) {
+static enum lang_use open_use(void *context, const struct object_value *object, const struct hash *contents,
+                              bool exact) {
     struct builder *b = context;
     const struct object_value *bounds = object_object(object, KEY_OBJECT_BOUNDS);
-    if (bounds) diag_help(b->diag, diag_error(b->diag, bounds->span, "bounds-of-no-quadric", "`bounds` cut a quadric; a template has none"), "move them to the quadric");
+    if (bounds)
+        diag_help(b->diag,
+                  diag_error(b->diag, bounds->span, "bounds-of-no-quadric",
+                             "`bounds` cut a quadric; a template has none"),
+                  "move them to the quadric");
     return instances_open(b, object, contents, exact);
 }
 
@@ -103,7 +118,8 @@ static void take_back(void *context) {
 
 /* ---- Building ---- */
 
-struct builder *scene_begin(struct arena *arena, struct diagnostics *diag, struct scene *scene, struct lang_sink *sink) {
+struct builder *scene_begin(struct arena *arena, struct diagnostics *diag, struct scene *scene,
+                            struct lang_sink *sink) {
     struct builder *b = arena_alloc(arena, sizeof *b);
     *scene = (struct scene){0};
     *b = (struct builder){.arena = arena, .diag = diag, .scene = scene, .default_material = NO_MATERIAL};
@@ -116,7 +132,8 @@ struct builder *scene_begin(struct arena *arena, struct diagnostics *diag, struc
 /* Warns of a picture that is the background alone, or black objects. */
 static void warn_nothing_seen(struct builder *b, const struct object_value *file) {
     if (b->scene->primitives.count == 0) {
-        struct diagnostic *d = diag_warning(b->diag, object_span(file, KEY_FILE_SCENE), "no-objects", "no objects: only the background will be seen");
+        struct diagnostic *d = diag_warning(b->diag, object_span(file, KEY_FILE_SCENE), "no-objects",
+                                            "no objects: only the background will be seen");
         diag_help(b->diag, d, "add one, as in `- sphere: {}`");
     } else {
         lights_check(b, file);
@@ -129,7 +146,8 @@ bool scene_end(struct builder *b, const struct lang_result *description) {
     settings_build(b, file);
     camera_build(b, file);
     lights_build(b, file);
-    for (uint32_t i = 0; i < description->materials.count; i++) material_add_named(b, description->materials.items[i]);
+    for (uint32_t i = 0; i < description->materials.count; i++)
+        material_add_named(b, description->materials.items[i]);
     b->scene->primitives = b->set->primitives;
     materials_check(b);
     places_keep(b);

@@ -33,11 +33,12 @@ struct builder {
     struct set *set, *free_sets;
     struct level *level, *free_levels;
     struct table placed, geometries, inline_materials; /* by their contents */
-    uint32_t *named_materials, named_room; /* index into the scene's materials by definition */
+    uint32_t *named_materials, named_room;             /* index into the scene's materials by definition */
     uint32_t material_room, material_info_room, geometry_room, template_room;
-    uint32_t origin; /* of what is placed now */
+    uint32_t origin;           /* of what is placed now */
     uint32_t default_material; /* its index once it is needed; else NO_MATERIAL */
-    uint32_t *geometry_height, *geometry_weight, height_room, weight_room; /* of each geometry, see instances.c */
+    uint32_t *geometry_height, *geometry_weight, height_room,
+        weight_room;   /* of each geometry, see instances.c */
     struct set marked; /* at the mark: its counts */
     uint32_t marked_geometries;
 };
@@ -77,7 +78,8 @@ void shape_build(struct builder *b, const struct object_value *shape, const stru
                  affine world_from_node, uint32_t material);
 
 /* Adds an instance of a geometry of the scene. */
-void instance_add(struct builder *b, struct span span, affine world_from_object, uint32_t geometry, uint32_t material);
+void instance_add(struct builder *b, struct span span, affine world_from_object, uint32_t geometry,
+                  uint32_t material);
 
 /* ---- places.c: where things were written ---- */
 
@@ -92,7 +94,8 @@ void places_keep(struct builder *b);
 
 /* ---- instances.c: what becomes of a template in use ---- */
 
-enum lang_use instances_open(struct builder *b, const struct object_value *object, const struct hash *contents, bool exact);
+enum lang_use instances_open(struct builder *b, const struct object_value *object,
+                             const struct hash *contents, bool exact);
 bool instances_close(struct builder *b);
 
 /* Forgets what was gathered since there were `geometries` of them. */

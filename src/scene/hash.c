@@ -11,14 +11,16 @@ static void hash_box(struct hash *hash, box3 box) {
 }
 
 static void hash_form(struct hash *hash, const struct quadric_form *form) {
-    const double terms[] = {form->xx, form->yy, form->zz, form->xy, form->yz, form->zx, form->x, form->y, form->z, form->constant};
+    const double terms[] = {form->xx, form->yy, form->zz, form->xy, form->yz,
+                            form->zx, form->x,  form->y,  form->z,  form->constant};
     for (size_t i = 0; i < sizeof terms / sizeof *terms; i++) hash_double(hash, terms[i]);
     hash_box(hash, form->clip);
     hash_integer(hash, form->open);
 }
 
 static void hash_camera(struct hash *hash, const struct camera *camera) {
-    const bool given[] = {camera->has_eye, camera->has_look_at, camera->has_direction, camera->has_up, camera->has_height};
+    const bool given[] = {camera->has_eye, camera->has_look_at, camera->has_direction, camera->has_up,
+                          camera->has_height};
     for (size_t i = 0; i < sizeof given / sizeof *given; i++) hash_integer(hash, given[i]);
     hash_integer(hash, camera->projection);
     hash_vec3(hash, camera->eye);
@@ -59,7 +61,8 @@ void shape_hash(const struct primitives *p, primitive_ref ref, struct hash *hash
 
 static uint32_t material_of(const struct primitives *p, uint32_t number) {
     const primitive_ref ref = p->info[number].ref;
-    return primitive_ref_kind(ref) == PRIMITIVE_INSTANCE ? p->instances[primitive_ref_index(ref)].material : p->info[number].material;
+    return primitive_ref_kind(ref) == PRIMITIVE_INSTANCE ? p->instances[primitive_ref_index(ref)].material
+                                                         : p->info[number].material;
 }
 
 /* Materials by their values, at each primitive that has them: not by name or number, nor unused ones. */

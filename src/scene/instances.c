@@ -28,7 +28,8 @@ static struct placed *find_placed(struct builder *b, struct table *table, const 
 
 /* The use as an instance, at the place of the level that is open for it. */
 static void add_instance(struct builder *b, const struct object_value *use, const struct placed *placed) {
-    const uint32_t material = placed->material == MATERIAL_INHERITED ? material_index(b, b->level->material) : placed->material;
+    const uint32_t material =
+        placed->material == MATERIAL_INHERITED ? material_index(b, b->level->material) : placed->material;
     place_origin(b, use);
     instance_add(b, use->span, b->level->world_from_node, placed->geometry, material);
 }
@@ -42,8 +43,10 @@ static void count_use(struct builder *b) {
 /* A set to gather in: one that was closed before gives its room. */
 static void open_set(struct builder *b) {
     struct set *set = b->free_sets;
-    if (set) b->free_sets = set->outer;
-    else set = arena_alloc(b->arena, sizeof *set);
+    if (set)
+        b->free_sets = set->outer;
+    else
+        set = arena_alloc(b->arena, sizeof *set);
     struct primitives *p = &set->primitives;
     p->count = p->sphere_count = p->flat_count = p->quadric_count = p->instance_count = p->use_count = 0;
     set->outer = b->set;
@@ -57,7 +60,8 @@ static void close_set(struct builder *b) {
     b->free_sets = set;
 }
 
-enum lang_use instances_open(struct builder *b, const struct object_value *object, const struct hash *contents, bool exact) {
+enum lang_use instances_open(struct builder *b, const struct object_value *object,
+                             const struct hash *contents, bool exact) {
     struct placed *placed = find_placed(b, &b->placed, contents);
     level_open(b, object, placed);
     count_use(b);
@@ -67,7 +71,10 @@ enum lang_use instances_open(struct builder *b, const struct object_value *objec
         level_close(b);
         return LANG_USE_PLACED;
     }
-    level_push(b, (struct level){.world_from_node = AFFINE_IDENTITY, .use = object, .placed = placed, .template = b->level->template});
+    level_push(b, (struct level){.world_from_node = AFFINE_IDENTITY,
+                                 .use = object,
+                                 .placed = placed,
+                                 .template = b->level->template});
     open_set(b);
     return LANG_USE_READ;
 }
@@ -85,7 +92,8 @@ static void measure(const struct builder *b, const struct primitives *p, uint32_
     }
 }
 
-static uint32_t add_geometry(struct builder *b, const struct primitives *p, uint32_t height, uint32_t weight) {
+static uint32_t add_geometry(struct builder *b, const struct primitives *p, uint32_t height,
+                             uint32_t weight) {
     struct scene *scene = b->scene;
     const uint32_t i = scene->geometry_count;
     scene->geometries = builder_grow(b, scene->geometries, i, &b->geometry_room, sizeof *scene->geometries);
@@ -99,7 +107,8 @@ static uint32_t add_geometry(struct builder *b, const struct primitives *p, uint
 
 static uint32_t *material_of(struct primitives *p, uint32_t number) {
     const primitive_ref ref = p->info[number].ref;
-    return primitive_ref_kind(ref) == PRIMITIVE_INSTANCE ? &p->instances[primitive_ref_index(ref)].material : &p->info[number].material;
+    return primitive_ref_kind(ref) == PRIMITIVE_INSTANCE ? &p->instances[primitive_ref_index(ref)].material
+                                                         : &p->info[number].material;
 }
 
 /* The only material of the set, which now inherits it; MATERIAL_INHERITED: there is none, or several. */
@@ -118,7 +127,8 @@ static uint32_t find_geometry(struct builder *b, struct set *set, uint32_t heigh
     primitives_hash(&set->primitives, &contents);
     struct placed *known = find_placed(b, &b->geometries, &contents);
     if (known->state == PLACED_GATHERED) return known->geometry;
-    *known = (struct placed){PLACED_GATHERED, add_geometry(b, &set->primitives, height, weight), MATERIAL_INHERITED};
+    *known = (struct placed){PLACED_GATHERED, add_geometry(b, &set->primitives, height, weight),
+                             MATERIAL_INHERITED};
     *set = (struct set){.outer = set->outer}; /* it is among the free ones: without arrays now */
     return known->geometry;
 }
@@ -150,7 +160,8 @@ bool instances_close(struct builder *b) {
 static void forget(struct table *table, uint32_t geometries) {
     for (size_t i = 0; i < table->capacity; i++) {
         struct placed *placed = table->slots[i].value;
-        if (placed && placed->state == PLACED_GATHERED && placed->geometry >= geometries) placed->state = PLACED_NEW;
+        if (placed && placed->state == PLACED_GATHERED && placed->geometry >= geometries)
+            placed->state = PLACED_NEW;
     }
 }
 

@@ -2,7 +2,9 @@
 
 #include <string.h>
 
-enum { KEPT_TEXT = 4 << 20 }; /* bytes of sources that stay for messages; places in longer ones have no excerpt */
+enum {
+    KEPT_TEXT = 4 << 20
+}; /* bytes of sources that stay for messages; places in longer ones have no excerpt */
 
 static void *grow(struct arena *arena, void *array, uint32_t count, uint32_t *room, size_t size) {
     if (count < *room) return array;
@@ -22,7 +24,8 @@ static bool same_origin(const struct origin *a, const struct origin *b) {
 uint32_t origins_file(struct origins *origins, struct arena *arena, const struct source *source) {
     for (uint32_t i = origins->file_count; i-- > 0;)
         if (origins->files[i] == source) return i;
-    origins->files = grow(arena, origins->files, origins->file_count, &origins->file_room, sizeof *origins->files);
+    origins->files =
+        grow(arena, origins->files, origins->file_count, &origins->file_room, sizeof *origins->files);
     origins->files[origins->file_count] = source;
     return origins->file_count++;
 }

@@ -13,7 +13,7 @@
 #define ORIGIN_NO_TEMPLATE UINT32_MAX
 
 struct origin {
-    const char *name;      /* the object's, or that of the innermost group or use around with one; NULL: none */
+    const char *name; /* the object's, or that of the innermost group or use around with one; NULL: none */
     uint32_t line, column; /* from 0 */
     uint32_t file : 24;    /* index into origins.files */
     uint32_t kind : 8;     /* of the shape: of grammar_kinds; of a use: KIND_TEMPLATE */

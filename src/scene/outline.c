@@ -2,18 +2,23 @@
 
 #include <string.h>
 
-static const char *keep(struct outline *o, const char *text) { return text ? arena_text(o->arena, text, strlen(text)) : NULL; }
+static const char *keep(struct outline *o, const char *text) {
+    return text ? arena_text(o->arena, text, strlen(text)) : NULL;
+}
 
 static const char *keep_file(struct outline *o, struct span span) {
     const struct outline_node *before = o->at->last ? o->at->last : o->at;
-    return before->file && strcmp(before->file, span.source->name) == 0 ? before->file : keep(o, span.source->name);
+    return before->file && strcmp(before->file, span.source->name) == 0 ? before->file
+                                                                        : keep(o, span.source->name);
 }
 
 /* ---- Nodes ---- */
 
 static struct outline_node *find_member(const struct outline_node *parent, struct span span) {
     for (struct outline_node *n = parent->first; n; n = n->next)
-        if (n->line == span.line + 1 && n->column == span.column + 1 && strcmp(n->file, span.source->name) == 0) return n;
+        if (n->line == span.line + 1 && n->column == span.column + 1 &&
+            strcmp(n->file, span.source->name) == 0)
+            return n;
     return NULL;
 }
 
@@ -28,7 +33,9 @@ static struct outline_node *add_member(struct outline *o, const struct object_va
     const int key = object_alternative(object);
     const struct object_value *material = object_object(object, KEY_OBJECT_MATERIAL);
     const char *template = key == KEY_OBJECT_USE ? object_reference(object, key, &number) : NULL;
-    *n = (struct outline_node){.what = template ? keep(o, template) : key >= 0 ? object->kind->keys[key].name : "",
+    *n = (struct outline_node){.what = template   ? keep(o, template)
+                                       : key >= 0 ? object->kind->keys[key].name
+                                                  : "",
                                .is_use = template != NULL,
                                .name = keep(o, object_text(object, KEY_OBJECT_NAME)),
                                .loop = object_names(o->arena, object, KEY_OBJECT_FOR),
@@ -38,8 +45,10 @@ static struct outline_node *add_member(struct outline *o, const struct object_va
                                .column = object->span.column + 1,
                                .count = 1,
                                .outer = parent};
-    if (parent->last) parent->last->next = n;
-    else parent->first = n;
+    if (parent->last)
+        parent->last->next = n;
+    else
+        parent->first = n;
     parent->last = n;
     parent->listed++;
     o->nodes++;
@@ -55,13 +64,17 @@ static struct outline_node *note(struct outline *o, const struct object_value *o
 }
 
 static void descend(struct outline *o, struct outline_node *n) {
-    if (n) o->at = n;
-    else o->unlisted++;
+    if (n)
+        o->at = n;
+    else
+        o->unlisted++;
 }
 
 static void ascend(struct outline *o) {
-    if (o->unlisted) o->unlisted--;
-    else o->at = o->at->outer;
+    if (o->unlisted)
+        o->unlisted--;
+    else
+        o->at = o->at->outer;
 }
 
 /* ---- The sink ---- */
@@ -92,11 +105,13 @@ static bool note_use(struct outline *o, struct outline_node *n, const struct has
         if (contents) n->contents = *contents;
         return true;
     }
-    n->varies |= !contents || !n->known || contents->high != n->contents.high || contents->low != n->contents.low;
+    n->varies |=
+        !contents || !n->known || contents->high != n->contents.high || contents->low != n->contents.low;
     return false;
 }
 
-static enum lang_use pass_use(void *context, const struct object_value *object, const struct hash *contents, bool exact) {
+static enum lang_use pass_use(void *context, const struct object_value *object, const struct hash *contents,
+                              bool exact) {
     struct outline *o = context;
     struct outline_node *n = note(o, object);
     const bool first = n && note_use(o, n, contents);
@@ -133,6 +148,7 @@ static void pass_take_back(void *context) {
 struct outline *outline_begin(struct arena *arena, struct diagnostics *diag, struct lang_sink *sink) {
     struct outline *o = arena_alloc(arena, sizeof *o);
     *o = (struct outline){.arena = arena, .diag = diag, .sink = *sink, .at = &o->root};
-    *sink = (struct lang_sink){o, pass_shape, pass_group, pass_group_end, pass_use, pass_use_end, pass_mark, pass_take_back};
+    *sink = (struct lang_sink){o,        pass_shape,   pass_group, pass_group_end,
+                               pass_use, pass_use_end, pass_mark,  pass_take_back};
     return o;
 }

@@ -7,7 +7,8 @@ void place_origin(struct builder *b, const struct object_value *object) {
     const char *own = object_text(object, KEY_OBJECT_NAME);
     const struct object_value *shape = object_object(object, object_alternative(object));
     const long kind = shape ? shape->kind - grammar_kinds : KIND_TEMPLATE;
-    const struct origin origin = {.name = own ? own : b->level->name, .kind = (uint32_t)kind & 0xff, .template = b->level->template};
+    const struct origin origin = {
+        .name = own ? own : b->level->name, .kind = (uint32_t)kind & 0xff, .template = b->level->template};
     b->origin = origins_add(&b->scene->origins, b->arena, object->span, origin);
 }
 
@@ -16,7 +17,8 @@ uint32_t place_template(struct builder *b, const struct object_value *use) {
     uint32_t number = 0;
     const char *name = object_reference(use, KEY_OBJECT_USE, &number);
     while (scene->template_count <= number) {
-        scene->templates = builder_grow(b, scene->templates, scene->template_count, &b->template_room, sizeof *scene->templates);
+        scene->templates = builder_grow(b, scene->templates, scene->template_count, &b->template_room,
+                                        sizeof *scene->templates);
         scene->templates[scene->template_count++] = NULL;
     }
     if (!scene->templates[number]) scene->templates[number] = arena_text(b->arena, name, strlen(name));
@@ -37,7 +39,8 @@ static void keep_spans(struct builder *b, struct span **spans, uint32_t count) {
 void places_keep(struct builder *b) {
     struct scene *scene = b->scene;
     uint32_t count = 0;
-    struct span **spans = arena_array(b->arena, scene->light_count + 2 * scene->material_count + 2, sizeof *spans);
+    struct span **spans =
+        arena_array(b->arena, scene->light_count + 2 * scene->material_count + 2, sizeof *spans);
     spans[count++] = &scene->camera_span;
     spans[count++] = &scene->eye_span;
     for (uint32_t i = 0; i < scene->light_count; i++) spans[count++] = &scene->light_spans[i];

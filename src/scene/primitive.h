@@ -55,7 +55,8 @@ struct quadric {
 struct instance {
     affine object_from_world, world_from_object; /* object space: that of the geometry */
     uint32_t geometry;                           /* index into the scene's geometries */
-    uint32_t material; /* of its primitives that have MATERIAL_INHERITED; may be that too, within a geometry */
+    uint32_t
+        material; /* of its primitives that have MATERIAL_INHERITED; may be that too, within a geometry */
 };
 
 /* Instances around a primitive, at most: whoever makes geometries flattens or refuses what is deeper. */
@@ -70,7 +71,9 @@ enum { PRIMITIVE_MAX = 1 << 30 }; /* of a kind */
 static inline primitive_ref primitive_ref_make(enum primitive_kind kind, uint32_t index) {
     return (uint32_t)kind << 30 | index;
 }
-static inline enum primitive_kind primitive_ref_kind(primitive_ref ref) { return (enum primitive_kind)(ref >> 30); }
+static inline enum primitive_kind primitive_ref_kind(primitive_ref ref) {
+    return (enum primitive_kind)(ref >> 30);
+}
 static inline uint32_t primitive_ref_index(primitive_ref ref) { return ref & (PRIMITIVE_MAX - 1); }
 
 /* What the renderer asks of a primitive besides its shape. */

@@ -64,22 +64,24 @@ struct scene {
     uint32_t geometry_count;
     struct origins origins;              /* of primitives, and the files of all places below */
     struct material_info *material_info; /* of each material */
-    struct span camera_span;             /* of what says where it looks; else of the camera, or of the scene */
-    struct span eye_span;                /* of the camera's eye where it has one */
-    struct span *light_spans;            /* of each light's place or colour */
-    const char **templates;              /* names, by number; NULL where not used */
+    struct span camera_span;  /* of what says where it looks; else of the camera, or of the scene */
+    struct span eye_span;     /* of the camera's eye where it has one */
+    struct span *light_spans; /* of each light's place or colour */
+    const char **templates;   /* names, by number; NULL where not used */
     uint32_t template_count;
 };
 
 /* Building a scene: *sink takes its objects while they are read (lang_read), scene_end the rest. Shapes
  * are in the order of the file; groups and transforms are flattened. scene_end: false when something is
  * wrong: reported to `diag`, nothing usable in *scene. All of *scene lives in `arena`. */
-struct builder *scene_begin(struct arena *arena, struct diagnostics *diag, struct scene *scene, struct lang_sink *sink);
+struct builder *scene_begin(struct arena *arena, struct diagnostics *diag, struct scene *scene,
+                            struct lang_sink *sink);
 bool scene_end(struct builder *builder, const struct lang_result *description);
 
 /* Another frame of a scene whose objects and materials stay: makes its settings, camera and lights anew, the
  * lights in `arena`. False: reported, and *scene is as it was. */
-bool scene_view(struct arena *arena, struct diagnostics *diag, const struct object_value *file, struct scene *scene);
+bool scene_view(struct arena *arena, struct diagnostics *diag, const struct object_value *file,
+                struct scene *scene);
 
 /* Whether the hierarchies of one serve the other: the same primitives, bit by bit, and materials of which
  * the same are clear. */

@@ -34,9 +34,12 @@ static void background_build(struct scene *scene, const struct object_value *ima
 void settings_build(struct builder *b, const struct object_value *file) {
     struct scene *scene = b->scene;
     struct monge_settings *s = &scene->settings;
-    const struct object_value none_image = {.kind = &grammar_kinds[KIND_IMAGE], .fields = (struct value *[KEYS_IMAGE]){0}};
-    const struct object_value none_render = {.kind = &grammar_kinds[KIND_RENDER], .fields = (struct value *[KEYS_RENDER]){0}};
-    const struct object_value *image = object_object(file, KEY_FILE_IMAGE), *render = object_object(file, KEY_FILE_RENDER);
+    const struct object_value none_image = {.kind = &grammar_kinds[KIND_IMAGE],
+                                            .fields = (struct value *[KEYS_IMAGE]){0}};
+    const struct object_value none_render = {.kind = &grammar_kinds[KIND_RENDER],
+                                             .fields = (struct value *[KEYS_RENDER]){0}};
+    const struct object_value *image = object_object(file, KEY_FILE_IMAGE),
+                              *render = object_object(file, KEY_FILE_RENDER);
     background_build(scene, image);
     if (!image) image = &none_image;
     if (!render) render = &none_render;
@@ -46,7 +49,9 @@ void settings_build(struct builder *b, const struct object_value *file) {
         .height = (uint32_t)size.y,
         .samples = (uint32_t)object_number(image, KEY_IMAGE_SAMPLES),
         .bits = object_choice(image, KEY_IMAGE_BITS) == CHOICE_IMAGE_BITS_16 ? 16 : 8,
-        .encoding = object_choice(image, KEY_IMAGE_ENCODING) == CHOICE_IMAGE_ENCODING_LINEAR ? MONGE_ENCODING_LINEAR : MONGE_ENCODING_SRGB,
+        .encoding = object_choice(image, KEY_IMAGE_ENCODING) == CHOICE_IMAGE_ENCODING_LINEAR
+                        ? MONGE_ENCODING_LINEAR
+                        : MONGE_ENCODING_SRGB,
         .shading = (enum monge_shading)object_choice(render, KEY_RENDER_SHADING),
         .depth = (unsigned)object_number(render, KEY_RENDER_DEPTH),
         .shadow = object_number(render, KEY_RENDER_SHADOW),
@@ -55,8 +60,10 @@ void settings_build(struct builder *b, const struct object_value *file) {
     scene->highlight_always = object_choice(render, KEY_RENDER_HIGHLIGHT) == CHOICE_RENDER_HIGHLIGHT_ALWAYS;
     const char *wrong = monge_settings_check(s);
     if (!wrong) return;
-    struct diagnostic *d = diag_error(b->diag, object_span(image, KEY_IMAGE_SIZE), "image-too-large", "%s", wrong);
-    diag_help(b->diag, d, "%u x %u would take %.3g GiB", (unsigned)s->width, (unsigned)s->height, 12.0 * s->width * s->height / (1 << 30));
+    struct diagnostic *d =
+        diag_error(b->diag, object_span(image, KEY_IMAGE_SIZE), "image-too-large", "%s", wrong);
+    diag_help(b->diag, d, "%u x %u would take %.3g GiB", (unsigned)s->width, (unsigned)s->height,
+              12.0 * s->width * s->height / (1 << 30));
 }
 
 /* ---- Camera ---- */
@@ -70,33 +77,43 @@ static void camera_check(struct builder *b, const struct object_value *object, c
     const vec3 view = camera->has_direction ? camera->direction : vec3_sub(camera->look_at, camera->eye);
     if (!camera->has_direction && !(camera->has_eye && camera->has_look_at)) return;
     if (!(vec3_max_abs(view) > 0.0)) {
-        struct diagnostic *d = diag_error(b->diag, object_span(object, KEY_CAMERA_LOOK_AT), "no-view-direction", "`look_at` is where `eye` is: no direction to look in");
+        struct diagnostic *d =
+            diag_error(b->diag, object_span(object, KEY_CAMERA_LOOK_AT), "no-view-direction",
+                       "`look_at` is where `eye` is: no direction to look in");
         diag_related(b->diag, d, object_span(object, KEY_CAMERA_EYE), "`eye` is given here");
         return;
     }
     if (!camera->has_up || !parallel(view, camera->up)) return;
     const vec3 n = vec3_abs(vec3_normalize(view));
-    struct diagnostic *d = diag_error(b->diag, object_span(object, KEY_CAMERA_UP), "up-along-view", "`up` points along the view, which leaves open what is up");
+    struct diagnostic *d = diag_error(b->diag, object_span(object, KEY_CAMERA_UP), "up-along-view",
+                                      "`up` points along the view, which leaves open what is up");
     diag_help(b->diag, d, "%s will do", n.y > 0.9 ? "[0, 0, -1]" : "[0, 1, 0]");
 }
 
-static void projection_check(struct builder *b, const struct object_value *object, const struct camera *camera) {
+static void projection_check(struct builder *b, const struct object_value *object,
+                             const struct camera *camera) {
     const bool perspective = camera->projection == CAMERA_PERSPECTIVE;
     const int other = perspective ? KEY_CAMERA_HEIGHT : KEY_CAMERA_FOV;
     if (!object_has(object, other)) return;
-    struct diagnostic *d = diag_error(b->diag, object_span(object, other), "wrong-projection", "`%s` is for %s camera", object->kind->keys[other].name,
-                                      perspective ? "an orthographic" : "a perspective");
-    diag_help(b->diag, d, perspective ? "use `fov`, or add `projection: orthographic`" : "use `height`, or remove `projection: orthographic`");
+    struct diagnostic *d =
+        diag_error(b->diag, object_span(object, other), "wrong-projection", "`%s` is for %s camera",
+                   object->kind->keys[other].name, perspective ? "an orthographic" : "a perspective");
+    diag_help(b->diag, d,
+              perspective ? "use `fov`, or add `projection: orthographic`"
+                          : "use `height`, or remove `projection: orthographic`");
 }
 
 void camera_build(struct builder *b, const struct object_value *file) {
     struct camera *camera = &b->scene->camera;
     const struct object_value *object = object_object(file, KEY_FILE_CAMERA);
-    *camera = (struct camera){.up = {0, 1, 0}, .fov_deg = grammar_kinds[KIND_CAMERA].keys[KEY_CAMERA_FOV].value[0]};
+    *camera =
+        (struct camera){.up = {0, 1, 0}, .fov_deg = grammar_kinds[KIND_CAMERA].keys[KEY_CAMERA_FOV].value[0]};
     b->scene->camera_span = object_span(file, object ? KEY_FILE_CAMERA : KEY_FILE_SCENE);
     if (!object) return;
     *camera = (struct camera){
-        .projection = object_choice(object, KEY_CAMERA_PROJECTION) == CHOICE_CAMERA_PROJECTION_ORTHOGRAPHIC ? CAMERA_ORTHOGRAPHIC : CAMERA_PERSPECTIVE,
+        .projection = object_choice(object, KEY_CAMERA_PROJECTION) == CHOICE_CAMERA_PROJECTION_ORTHOGRAPHIC
+                          ? CAMERA_ORTHOGRAPHIC
+                          : CAMERA_PERSPECTIVE,
         .has_eye = object_has(object, KEY_CAMERA_EYE),
         .has_look_at = object_has(object, KEY_CAMERA_LOOK_AT),
         .has_direction = object_has(object, KEY_CAMERA_DIRECTION),
@@ -110,7 +127,9 @@ void camera_build(struct builder *b, const struct object_value *file) {
         .height = object_number(object, KEY_CAMERA_HEIGHT),
     };
     if (object->failed) return;
-    const int looks = camera->has_direction ? KEY_CAMERA_DIRECTION : camera->has_look_at ? KEY_CAMERA_LOOK_AT : KEY_CAMERA_EYE;
+    const int looks = camera->has_direction ? KEY_CAMERA_DIRECTION
+                      : camera->has_look_at ? KEY_CAMERA_LOOK_AT
+                                            : KEY_CAMERA_EYE;
     if (object_has(object, looks)) b->scene->camera_span = object_span(object, looks);
     b->scene->eye_span = object_span(object, KEY_CAMERA_EYE);
     camera_check(b, object, camera);
@@ -120,15 +139,20 @@ void camera_build(struct builder *b, const struct object_value *file) {
 /* ---- Lights ---- */
 
 static struct light light_build(const struct object_value *object) {
-    const struct object_value *ambient = object_object(object, KEY_LIGHT_AMBIENT), *point = object_object(object, KEY_LIGHT_POINT);
-    if (ambient) return (struct light){LIGHT_AMBIENT, {0, 0, 0}, object_vec3(ambient, KEY_AMBIENT_LIGHT_COLOR)};
-    if (point) return (struct light){LIGHT_POINT, object_vec3(point, KEY_POINT_LIGHT_AT), object_vec3(point, KEY_POINT_LIGHT_COLOR)};
+    const struct object_value *ambient = object_object(object, KEY_LIGHT_AMBIENT),
+                              *point = object_object(object, KEY_LIGHT_POINT);
+    if (ambient)
+        return (struct light){LIGHT_AMBIENT, {0, 0, 0}, object_vec3(ambient, KEY_AMBIENT_LIGHT_COLOR)};
+    if (point)
+        return (struct light){LIGHT_POINT, object_vec3(point, KEY_POINT_LIGHT_AT),
+                              object_vec3(point, KEY_POINT_LIGHT_COLOR)};
     return (struct light){LIGHT_AMBIENT, {0, 0, 0}, {0, 0, 0}}; /* a reported one */
 }
 
 /* Where it says where the light is, or else its colour. */
 static struct span light_span(const struct object_value *object) {
-    const struct object_value *ambient = object_object(object, KEY_LIGHT_AMBIENT), *point = object_object(object, KEY_LIGHT_POINT);
+    const struct object_value *ambient = object_object(object, KEY_LIGHT_AMBIENT),
+                              *point = object_object(object, KEY_LIGHT_POINT);
     if (point) return object_span(point, KEY_POINT_LIGHT_AT);
     return ambient ? object_span(ambient, KEY_AMBIENT_LIGHT_COLOR) : object->span;
 }
@@ -153,7 +177,8 @@ static bool looks_black(const struct scene *scene, const struct material *m) {
     bool lit = false;
     for (uint32_t i = 0; i < scene->light_count; i++) {
         const struct light *light = &scene->lights[i];
-        const bool takes = light->kind == LIGHT_AMBIENT ? !is_black(m->ambient) : !is_black(m->diffuse) || !is_black(m->specular);
+        const bool takes = light->kind == LIGHT_AMBIENT ? !is_black(m->ambient)
+                                                        : !is_black(m->diffuse) || !is_black(m->specular);
         lit |= takes && !is_black(light->color);
     }
     return !lit && is_black(m->reflection) && is_black(m->refraction);
@@ -161,7 +186,8 @@ static bool looks_black(const struct scene *scene, const struct material *m) {
 
 /* Whether everything is black that `p` makes with its own materials. *inherits becomes true where
  * something in it takes that of the instance around; inherits_in tells that of the geometries. */
-static bool all_black(const struct scene *scene, const struct primitives *p, const bool *inherits_in, bool *inherits) {
+static bool all_black(const struct scene *scene, const struct primitives *p, const bool *inherits_in,
+                      bool *inherits) {
     for (uint32_t i = 0; i < p->count; i++) {
         const primitive_ref ref = p->info[i].ref;
         uint32_t material = p->info[i].material;
@@ -170,8 +196,10 @@ static bool all_black(const struct scene *scene, const struct primitives *p, con
             if (!inherits_in[instance->geometry]) continue;
             material = instance->material;
         }
-        if (material == MATERIAL_INHERITED) *inherits = true;
-        else if (!looks_black(scene, &scene->materials[material])) return false;
+        if (material == MATERIAL_INHERITED)
+            *inherits = true;
+        else if (!looks_black(scene, &scene->materials[material]))
+            return false;
     }
     return true;
 }
@@ -185,9 +213,14 @@ void lights_check(struct builder *b, const struct object_value *file) {
     for (uint32_t i = 0; i < scene->geometry_count; i++)
         if (!all_black(scene, &scene->geometries[i], inherits, &inherits[i])) return;
     if (!all_black(scene, &scene->primitives, inherits, &top)) return;
-    struct diagnostic *d = diag_warning(b->diag, object_span(file, KEY_FILE_LIGHTS), "no-light", scene->light_count == 0 ? "no light: everything will be black" : "no light that any material gives back: everything will be black");
-    if (ambient_alone) diag_help(b->diag, d, "give the materials an `ambient` colour, or add a point light");
-    else diag_help(b->diag, d, "add one, or remove `lights` for the default ones");
+    struct diagnostic *d = diag_warning(
+        b->diag, object_span(file, KEY_FILE_LIGHTS), "no-light",
+        scene->light_count == 0 ? "no light: everything will be black"
+                                : "no light that any material gives back: everything will be black");
+    if (ambient_alone)
+        diag_help(b->diag, d, "give the materials an `ambient` colour, or add a point light");
+    else
+        diag_help(b->diag, d, "add one, or remove `lights` for the default ones");
 }
 
 /* ---- Materials ---- */
@@ -204,7 +237,9 @@ static struct material material_of(struct builder *b, const struct object_value 
     const vec3 sum = vec3_add(m.reflection, m.refraction);
     const double most = sum.x > sum.y ? (sum.x > sum.z ? sum.x : sum.z) : (sum.y > sum.z ? sum.y : sum.z);
     if (most > 1.0 + 1e-9 && !object->failed) {
-        struct diagnostic *d = diag_error(b->diag, object_span(object, KEY_MATERIAL_REFRACTION), "too-much-light", "`reflection` and `refraction` add up to %g: more light than comes in", most);
+        struct diagnostic *d =
+            diag_error(b->diag, object_span(object, KEY_MATERIAL_REFRACTION), "too-much-light",
+                       "`reflection` and `refraction` add up to %g: more light than comes in", most);
         diag_help(b->diag, d, "their sum is at most 1");
         diag_related(b->diag, d, object_span(object, KEY_MATERIAL_REFLECTION), "`reflection` is given here");
     }
@@ -216,8 +251,10 @@ static struct material material_of(struct builder *b, const struct object_value 
 
 static uint32_t add_material(struct builder *b, struct material material, struct material_info info) {
     struct scene *scene = b->scene;
-    scene->materials = builder_grow(b, scene->materials, scene->material_count, &b->material_room, sizeof *scene->materials);
-    scene->material_info = builder_grow(b, scene->material_info, scene->material_count, &b->material_info_room, sizeof *scene->material_info);
+    scene->materials =
+        builder_grow(b, scene->materials, scene->material_count, &b->material_room, sizeof *scene->materials);
+    scene->material_info = builder_grow(b, scene->material_info, scene->material_count,
+                                        &b->material_info_room, sizeof *scene->material_info);
     scene->materials[scene->material_count] = material;
     scene->material_info[scene->material_count] = info;
     return scene->material_count++;
@@ -227,12 +264,16 @@ static uint32_t add_material(struct builder *b, struct material material, struct
 static void warn_idle(struct builder *b, const struct object_value *m) {
     static const struct {
         int key, needs;
-    } pairs[] = {{KEY_MATERIAL_SHININESS, KEY_MATERIAL_SPECULAR}, {KEY_MATERIAL_INDEX, KEY_MATERIAL_REFRACTION}};
-    if (m->failed || object_has(m, KEY_MATERIAL_EXTENDS) || object_has(m, KEY_MATERIAL_PRESET) || diag_full(b->diag)) return;
+    } pairs[] = {{KEY_MATERIAL_SHININESS, KEY_MATERIAL_SPECULAR},
+                 {KEY_MATERIAL_INDEX, KEY_MATERIAL_REFRACTION}};
+    if (m->failed || object_has(m, KEY_MATERIAL_EXTENDS) || object_has(m, KEY_MATERIAL_PRESET) ||
+        diag_full(b->diag))
+        return;
     for (int i = 0; i < 2; i++) {
         if (!object_has(m, pairs[i].key) || object_has(m, pairs[i].needs)) continue;
         const char *key = m->kind->keys[pairs[i].key].name, *needs = m->kind->keys[pairs[i].needs].name;
-        struct diagnostic *d = diag_warning(b->diag, object_span(m, pairs[i].key), "no-effect", "`%s` has no effect without `%s`", key, needs);
+        struct diagnostic *d = diag_warning(b->diag, object_span(m, pairs[i].key), "no-effect",
+                                            "`%s` has no effect without `%s`", key, needs);
         diag_help(b->diag, d, "give the material a `%s`, or remove `%s`", needs, key);
     }
 }
@@ -257,16 +298,20 @@ static uint32_t inline_material(struct builder *b, const struct object_value *ob
 static uint32_t named_material(struct builder *b, const struct object_value *material) {
     while (b->named_room <= material->definition) {
         const uint32_t before = b->named_room;
-        b->named_materials = builder_grow(b, b->named_materials, before, &b->named_room, sizeof *b->named_materials);
+        b->named_materials =
+            builder_grow(b, b->named_materials, before, &b->named_room, sizeof *b->named_materials);
         for (uint32_t i = before; i < b->named_room; i++) b->named_materials[i] = NO_MATERIAL;
     }
     uint32_t *index = &b->named_materials[material->definition];
     if (*index != NO_MATERIAL) return *index;
     const char *name = arena_text(b->arena, material->name, strlen(material->name));
-    return *index = add_material(b, material_of(b, material), (struct material_info){.name = name, .span = material->span});
+    return *index = add_material(b, material_of(b, material),
+                                 (struct material_info){.name = name, .span = material->span});
 }
 
-void material_add_named(struct builder *b, const struct object_value *material) { named_material(b, material); }
+void material_add_named(struct builder *b, const struct object_value *material) {
+    named_material(b, material);
+}
 
 void material_hold(struct builder *b, const struct object_value *material, struct span span) {
     if (!material->name || material->failed) return;
@@ -278,14 +323,19 @@ void materials_check(struct builder *b) {
     for (uint32_t i = 0; i < b->scene->material_count; i++) {
         const struct material_info *info = &b->scene->material_info[i];
         if (info->given || !info->held.source) continue;
-        struct diagnostic *d = diag_warning(b->diag, info->held, "unused-material", "`%s` can be seen on nothing: all that is in here has materials of its own", info->name);
+        struct diagnostic *d = diag_warning(
+            b->diag, info->held, "unused-material",
+            "`%s` can be seen on nothing: all that is in here has materials of its own", info->name);
         diag_help(b->diag, d, "remove it, or the material of a member");
     }
 }
 
 /* A light clay, with a soft highlight. */
-static const struct material default_material = {
-    .ambient = {0.62, 0.36, 0.22}, .diffuse = {0.62, 0.36, 0.22}, .specular = {0.25, 0.25, 0.25}, .shininess = 40, .index = 1};
+static const struct material default_material = {.ambient = {0.62, 0.36, 0.22},
+                                                 .diffuse = {0.62, 0.36, 0.22},
+                                                 .specular = {0.25, 0.25, 0.25},
+                                                 .shininess = 40,
+                                                 .index = 1};
 
 uint32_t material_index(struct builder *b, const struct object_value *material) {
     if (material && !material->name) return inline_material(b, material);
@@ -296,6 +346,7 @@ uint32_t material_index(struct builder *b, const struct object_value *material) 
         return index;
     }
     if (b->set->outer) return MATERIAL_INHERITED;
-    if (b->default_material == NO_MATERIAL) b->default_material = add_material(b, default_material, (struct material_info){.given = true});
+    if (b->default_material == NO_MATERIAL)
+        b->default_material = add_material(b, default_material, (struct material_info){.given = true});
     return b->default_material;
 }

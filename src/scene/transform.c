@@ -6,15 +6,18 @@ static void warn_radians(struct builder *b, const struct object_value *rotate, i
     static const struct {
         double radians;
         const char *name, *deg;
-    } angles[] = {{3.14159265358979, "pi", "180"},      {1.57079632679490, "pi/2", "90"}, {0.785398163397448, "pi/4", "45"},
-                  {1.04719755119660, "pi/3", "60"},     {0.523598775598299, "pi/6", "30"}, {6.28318530717959, "2 pi", "360"},
+    } angles[] = {{3.14159265358979, "pi", "180"},    {1.57079632679490, "pi/2", "90"},
+                  {0.785398163397448, "pi/4", "45"},  {1.04719755119660, "pi/3", "60"},
+                  {0.523598775598299, "pi/6", "30"},  {6.28318530717959, "2 pi", "360"},
                   {4.71238898038469, "3/2 pi", "270"}};
     const double value = fabs(object_number(rotate, key));
     for (size_t i = 0; i < sizeof angles / sizeof *angles; i++)
         if (fabs(value - angles[i].radians) < 0.002) {
-            struct diagnostic *d = diag_warning(b->diag, object_span(rotate, key), "looks-like-radians", "an angle of %g degrees looks like %s in radians",
+            struct diagnostic *d = diag_warning(b->diag, object_span(rotate, key), "looks-like-radians",
+                                                "an angle of %g degrees looks like %s in radians",
                                                 object_number(rotate, key), angles[i].name);
-            diag_help(b->diag, d, "angles are in degrees: did you mean %s%s?", object_number(rotate, key) < 0 ? "-" : "", angles[i].deg);
+            diag_help(b->diag, d, "angles are in degrees: did you mean %s%s?",
+                      object_number(rotate, key) < 0 ? "-" : "", angles[i].deg);
         }
 }
 
@@ -49,12 +52,16 @@ static void report_singular(struct builder *b, const struct object_value *step, 
     const vec3 v = key == KEY_STEP_SCALE ? object_vec3(step, key) : vec3_all(1);
     const bool flat = v.x == 0 || v.y == 0 || v.z == 0;
     if (!flat && (key == KEY_STEP_SCALE || !(vec3_max_abs(affine_column(map, 3)) < 1e100))) {
-        struct diagnostic *d = diag_error(b->diag, object_span(step, key), "flat-transform", "this `%s` is out of range", name);
+        struct diagnostic *d =
+            diag_error(b->diag, object_span(step, key), "flat-transform", "this `%s` is out of range", name);
         diag_help(b->diag, d, "its numbers must lie within 1e-100 to 1e100");
         return;
     }
-    struct diagnostic *d = diag_error(b->diag, object_span(step, key), "flat-transform", "this `%s` has no inverse", name);
-    diag_help(b->diag, d, flat ? "a factor of 0 flattens the object; for something flat use `square` or `disc`" : "it flattens the object, or its numbers are out of range");
+    struct diagnostic *d =
+        diag_error(b->diag, object_span(step, key), "flat-transform", "this `%s` has no inverse", name);
+    diag_help(b->diag, d,
+              flat ? "a factor of 0 flattens the object; for something flat use `square` or `disc`"
+                   : "it flattens the object, or its numbers are out of range");
 }
 
 bool transform_build(struct builder *b, struct object_list steps, affine *out) {

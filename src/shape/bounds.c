@@ -97,7 +97,8 @@ box3 shape_placed_bounds(const struct instance *instance, box3 box) {
     if (box3_is_empty(box)) return BOX3_EMPTY;
     const vec3 center = affine_point(m, box3_center(box));
     const vec3 half = map_size(m, vec3_scale(vec3_sub(box.max, box.min), 0.5));
-    return bounds_pad((box3){vec3_sub(center, half), vec3_add(center, half)}, m, &instance->object_from_world);
+    return bounds_pad((box3){vec3_sub(center, half), vec3_add(center, half)}, m,
+                      &instance->object_from_world);
 }
 
 /* ---- Along any direction ---- */
@@ -123,7 +124,8 @@ static double quadric_support(const struct quadric *q, vec3 direction) {
     const double y = row[1] * (row[1] > 0.0 ? extent.max.y : extent.min.y);
     const double z = row[2] * (row[2] > 0.0 ? extent.max.z : extent.min.z);
     double most = x + y + z;
-    if (form_is_upright(q->form)) most = box3_lower(most, upright_support(q->form, row, extent.min.z, extent.max.z));
+    if (form_is_upright(q->form))
+        most = box3_lower(most, upright_support(q->form, row, extent.min.z, extent.max.z));
     return row[3] + most;
 }
 

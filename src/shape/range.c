@@ -15,7 +15,9 @@ static double axis_size(double a, double b, double min, double max) {
     return fabs(a) * most * most + fabs(b) * most;
 }
 
-static struct range range_add(struct range a, struct range b) { return (struct range){a.min + b.min, a.max + b.max}; }
+static struct range range_add(struct range a, struct range b) {
+    return (struct range){a.min + b.min, a.max + b.max};
+}
 
 /* a t^2 + b t: its values at the ends, which may be infinite, and at the vertex. */
 static struct range range_axis(double a, double b, double min, double max) {
@@ -58,7 +60,8 @@ static struct range form_range(const struct quadric_form *f, box3 box) {
         {f->constant, f->constant},
     };
     struct range sum = {0.0, 0.0};
-    double most = axis_size(f->xx, f->x, a.x, b.x) + axis_size(f->yy, f->y, a.y, b.y) + axis_size(f->zz, f->z, a.z, b.z);
+    double most = axis_size(f->xx, f->x, a.x, b.x) + axis_size(f->yy, f->y, a.y, b.y) +
+                  axis_size(f->zz, f->z, a.z, b.z);
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
         sum = range_add(sum, parts[i]);
         if (fabs(parts[i].min) < INFINITY) most = box3_upper(most, fabs(parts[i].min));
@@ -86,7 +89,8 @@ static bool is_positive(const struct quadric_form *f, double sign) {
         done[best] = true;
         for (int i = 0; i < 4; i++)
             for (int j = 0; j < 4; j++)
-                if (i != best && j != best && !(i < 3 && done[i]) && !(j < 3 && done[j])) m[i][j] -= m[i][best] * m[best][j] / m[best][best];
+                if (i != best && j != best && !(i < 3 && done[i]) && !(j < 3 && done[j]))
+                    m[i][j] -= m[i][best] * m[best][j] / m[best][best];
     }
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 4; j++)
@@ -95,8 +99,8 @@ static bool is_positive(const struct quadric_form *f, double sign) {
 }
 
 static bool is_everywhere(box3 box) {
-    return box.min.x == -INFINITY && box.min.y == -INFINITY && box.min.z == -INFINITY && box.max.x == INFINITY &&
-           box.max.y == INFINITY && box.max.z == INFINITY;
+    return box.min.x == -INFINITY && box.min.y == -INFINITY && box.min.z == -INFINITY &&
+           box.max.x == INFINITY && box.max.y == INFINITY && box.max.z == INFINITY;
 }
 
 bool form_is_empty(const struct quadric_form *form) {

@@ -33,7 +33,8 @@ struct surface shape_surface(const struct primitives *p, primitive_ref ref, ray 
     switch (primitive_ref_kind(ref)) {
     case PRIMITIVE_SPHERE: return sphere_surface(&p->spheres[index], r, crossing.t);
     case PRIMITIVE_FLAT: return flat_surface(&p->flats[index], r, crossing.t);
-    case PRIMITIVE_INSTANCE: return (struct surface){ray_at(r, crossing.t), vec3_neg(vec3_normalize(r.dir)), 0.0};
+    case PRIMITIVE_INSTANCE:
+        return (struct surface){ray_at(r, crossing.t), vec3_neg(vec3_normalize(r.dir)), 0.0};
     case PRIMITIVE_QUADRIC: break;
     }
     return quadric_surface(&p->quadrics[index], r, crossing);

@@ -63,7 +63,8 @@ box3 shape_bounds(const struct primitives *p, primitive_ref ref);
 
 /* A surface of the instance's geometry, in world space. `extent`: bounds of the geometry, in its space, or
  * empty; the error holds for rays in the world that run so far. */
-struct surface shape_placed_surface(const struct instance *instance, const struct surface *surface, box3 extent);
+struct surface shape_placed_surface(const struct instance *instance, const struct surface *surface,
+                                    box3 extent);
 
 /* A world-space box that holds what the instance places of a bounded or empty box of its geometry,
  * rounded outwards. */

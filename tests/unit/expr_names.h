@@ -12,8 +12,8 @@ static const struct known {
     enum expr_found found;
     struct quantity value;
 } known[] = {
-    {"n", EXPR_FOUND, {1, {3}}},   {"depth", EXPR_FOUND, {1, {4}}},      {"v", EXPR_FOUND, {3, {1, 2, 3}}},
-    {"w", EXPR_FOUND, {2, {10, 20}}}, {"zero", EXPR_FOUND, {1, {0}}},    {"steel", EXPR_OTHER, {0, {0}}},
+    {"n", EXPR_FOUND, {1, {3}}},      {"depth", EXPR_FOUND, {1, {4}}}, {"v", EXPR_FOUND, {3, {1, 2, 3}}},
+    {"w", EXPR_FOUND, {2, {10, 20}}}, {"zero", EXPR_FOUND, {1, {0}}},  {"steel", EXPR_OTHER, {0, {0}}},
     {"later", EXPR_LATER, {0, {0}}},
 };
 
@@ -34,8 +34,9 @@ static inline void known_names(void *context, void (*each)(void *to, const char 
 }
 
 /* The bytes stand alone in memory, so that the sanitizers see whoever reads on. */
-static inline enum expr_result parse_and_evaluate(struct arena *arena, const char *text, size_t size, unsigned *asked,
-                                                  struct quantity *out, struct expr_error *error) {
+static inline enum expr_result parse_and_evaluate(struct arena *arena, const char *text, size_t size,
+                                                  unsigned *asked, struct quantity *out,
+                                                  struct expr_error *error) {
     char *bytes = malloc(size ? size : 1);
     memcpy(bytes, text, size);
     const struct expr *expr = expr_parse(arena, bytes, size, error);

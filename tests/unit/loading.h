@@ -10,12 +10,19 @@
 #include "near.h"
 #include "scene/scene.h"
 
-static const struct lang_limits loading_limits = {
-    .file_bytes = 1 << 20, .nesting = 100, .values = 1000000, .recursion = 100, .steps = 1000000, .objects = 1000000};
+static const struct lang_limits loading_limits = {.file_bytes = 1 << 20,
+                                                  .nesting = 100,
+                                                  .values = 1000000,
+                                                  .recursion = 100,
+                                                  .steps = 1000000,
+                                                  .objects = 1000000};
 
-static inline struct lang_input loading_input(struct lang_memory *memory, const char *text, const struct lang_sink *sink) {
-    return (struct lang_input){.source = file_from_memory(&memory->nodes, "t", text, strlen(text)), .path = "t",
-                               .limits = loading_limits, .sink = sink};
+static inline struct lang_input loading_input(struct lang_memory *memory, const char *text,
+                                              const struct lang_sink *sink) {
+    return (struct lang_input){.source = file_from_memory(&memory->nodes, "t", text, strlen(text)),
+                               .path = "t",
+                               .limits = loading_limits,
+                               .sink = sink};
 }
 
 /* ---- A whole scene ---- */
@@ -69,7 +76,8 @@ struct collected {
 
 static inline struct object_value *copy_object(struct arena *arena, const struct object_value *object);
 
-static inline struct value *copy_value(struct arena *arena, const struct grammar_key *key, const struct value *value) {
+static inline struct value *copy_value(struct arena *arena, const struct grammar_key *key,
+                                       const struct value *value) {
     struct value *copy = arena_alloc(arena, sizeof *copy);
     *copy = *value;
     if (value->is_object) {
@@ -82,7 +90,8 @@ static inline struct value *copy_value(struct arena *arena, const struct grammar
         copy->matrix = matrix;
     } else if (key->type == GRAMMAR_LIST && key->of != &grammar_kinds[KIND_OBJECT]) {
         copy->list.items = arena_array(arena, value->list.count, sizeof *copy->list.items);
-        for (uint32_t i = 0; i < value->list.count; i++) copy->list.items[i] = copy_object(arena, value->list.items[i]);
+        for (uint32_t i = 0; i < value->list.count; i++)
+            copy->list.items[i] = copy_object(arena, value->list.items[i]);
     }
     return copy;
 }
@@ -101,7 +110,8 @@ static inline void collect_object(void *context, const struct object_value *obje
     assert_true(c->count < COUNT(c->items));
     c->items[c->count++] = copy_object(&c->arena, object);
 }
-static inline enum lang_use collect_use(void *context, const struct object_value *object, const struct hash *contents, bool exact) {
+static inline enum lang_use collect_use(void *context, const struct object_value *object,
+                                        const struct hash *contents, bool exact) {
     (void)contents;
     (void)exact;
     collect_object(context, object);
@@ -109,11 +119,16 @@ static inline enum lang_use collect_use(void *context, const struct object_value
 }
 static inline void collect_close(void *context) { (void)context; }
 static inline bool collect_close_use(void *context) { return context == NULL; }
-static inline void collect_mark(void *context) { ((struct collected *)context)->marked = ((struct collected *)context)->count; }
-static inline void collect_take_back(void *context) { ((struct collected *)context)->count = ((struct collected *)context)->marked; }
+static inline void collect_mark(void *context) {
+    ((struct collected *)context)->marked = ((struct collected *)context)->count;
+}
+static inline void collect_take_back(void *context) {
+    ((struct collected *)context)->count = ((struct collected *)context)->marked;
+}
 
 static inline struct lang_sink collecting_sink(struct collected *c) {
-    return (struct lang_sink){c, collect_object, collect_object, collect_close, collect_use, collect_close_use, collect_mark, collect_take_back};
+    return (struct lang_sink){c,           collect_object,    collect_object, collect_close,
+                              collect_use, collect_close_use, collect_mark,   collect_take_back};
 }
 
 #endif

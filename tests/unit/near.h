@@ -16,12 +16,14 @@
 #define COUNT(rows) (sizeof(rows) / sizeof *(rows))
 
 static inline void assert_near(double got, double want, double tolerance, const char *what) {
-    if (!(fabs(got - want) <= tolerance) && got != want) fail_msg("%s: got %.17g, want %.17g", what, got, want);
+    if (!(fabs(got - want) <= tolerance) && got != want)
+        fail_msg("%s: got %.17g, want %.17g", what, got, want);
 }
 
 static inline void assert_vec3_near(vec3 got, vec3 want, double tolerance, const char *what) {
     if (!(vec3_max_abs(vec3_sub(got, want)) <= tolerance))
-        fail_msg("%s: got (%.17g, %.17g, %.17g), want (%.17g, %.17g, %.17g)", what, got.x, got.y, got.z, want.x, want.y, want.z);
+        fail_msg("%s: got (%.17g, %.17g, %.17g), want (%.17g, %.17g, %.17g)", what, got.x, got.y, got.z,
+                 want.x, want.y, want.z);
 }
 
 /* splitmix64. MONGE_SEED=n repeats a run that failed. */

@@ -22,8 +22,10 @@ static inline void say_object(FILE *out, const struct object_value *object);
 
 static inline void say_value(FILE *out, const struct grammar_key *key, const struct value *value) {
     if (value->is_object) {
-        if (value->object->name) fputs(value->object->name, out);
-        else say_object(out, value->object);
+        if (value->object->name)
+            fputs(value->object->name, out);
+        else
+            say_object(out, value->object);
         return;
     }
     switch (key->type) {
@@ -65,10 +67,13 @@ static inline void say_shape(void *context, const struct object_value *object) {
         fputc(' ', r->out);
     }
     fputs(object->kind->keys[shape].name, r->out);
-    if (shape == KEY_OBJECT_GROUP || shape == KEY_OBJECT_USE) fputc('(', r->out);
-    else say_object(r->out, object_object(object, shape));
+    if (shape == KEY_OBJECT_GROUP || shape == KEY_OBJECT_USE)
+        fputc('(', r->out);
+    else
+        say_object(r->out, object_object(object, shape));
 }
-static inline enum lang_use say_use(void *context, const struct object_value *object, const struct hash *contents, bool exact) {
+static inline enum lang_use say_use(void *context, const struct object_value *object,
+                                    const struct hash *contents, bool exact) {
     (void)contents;
     (void)exact;
     say_shape(context, object);
@@ -79,15 +84,22 @@ static inline bool say_close_use(void *context) {
     say_close(context);
     return false;
 }
-static inline void say_mark(void *context) { ((struct reading *)context)->marked = ftell(((struct reading *)context)->out); }
-static inline void say_take_back(void *context) { fseek(((struct reading *)context)->out, ((struct reading *)context)->marked, SEEK_SET); }
+static inline void say_mark(void *context) {
+    ((struct reading *)context)->marked = ftell(((struct reading *)context)->out);
+}
+static inline void say_take_back(void *context) {
+    fseek(((struct reading *)context)->out, ((struct reading *)context)->marked, SEEK_SET);
+}
 
 static inline struct lang_sink saying_sink(struct reading *r) {
-    return (struct lang_sink){r, say_shape, say_shape, say_close, say_use, say_close_use, say_mark, say_take_back};
+    return (struct lang_sink){r,       say_shape,     say_shape, say_close,
+                              say_use, say_close_use, say_mark,  say_take_back};
 }
 
 /* *adjust, which may be NULL, changes the input before it is read. */
-static inline void read_with(struct reading *r, const char *text, void (*adjust)(struct lang_input *input, const void *context), const void *context) {
+static inline void read_with(struct reading *r, const char *text,
+                             void (*adjust)(struct lang_input *input, const void *context),
+                             const void *context) {
     *r = (struct reading){0};
     r->out = open_memstream(&r->text, &r->size);
     const struct lang_sink sink = saying_sink(r);

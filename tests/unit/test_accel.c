@@ -163,7 +163,8 @@ static struct hit hit_of(uint32_t number, struct crossing crossing) {
     return (struct hit){.crossing = crossing, .which = {.number = {number}}};
 }
 
-static bool oracle_nearest(const struct scene *s, enum among among, ray r, double t_min, double t_max, struct hit *hit) {
+static bool oracle_nearest(const struct scene *s, enum among among, ray r, double t_min, double t_max,
+                           struct hit *hit) {
     const struct primitives *p = &s->p;
     bool found = false;
     for (uint32_t i = 0; i < p->count; i++) {

@@ -55,7 +55,8 @@ static void a_third_turn_about_the_diagonal_permutes_the_axes(void **state) {
 
 /* v cos a + (n x v) sin a + n (n . v) (1 - cos a), in long double. */
 static vec3 turn_long(vec3 axis, double angle_deg, vec3 v) {
-    const long double length = sqrtl((long double)axis.x * axis.x + (long double)axis.y * axis.y + (long double)axis.z * axis.z);
+    const long double length =
+        sqrtl((long double)axis.x * axis.x + (long double)axis.y * axis.y + (long double)axis.z * axis.z);
     const long double n[3] = {axis.x / length, axis.y / length, axis.z / length}, p[3] = {v.x, v.y, v.z};
     const long double a = angle_deg * acosl(-1.0L) / 180.0L, c = cosl(a), s = sinl(a);
     const long double dot = n[0] * p[0] + n[1] * p[1] + n[2] * p[2];
@@ -71,7 +72,8 @@ static void random_rotations(void **state) {
     (void)state;
     struct random r = random_begin();
     for (int i = 0; i < 20000; i++) {
-        const vec3 axis = vec3_scale(random_vec3(&r, -1, 1), exp2((double)random_below(&r, 200) - 100)), v = random_vec3(&r, -1, 1);
+        const vec3 axis = vec3_scale(random_vec3(&r, -1, 1), exp2((double)random_below(&r, 200) - 100)),
+                   v = random_vec3(&r, -1, 1);
         const double angle = random_between(&r, -720, 720);
         const affine map = affine_rotate(axis, angle);
         double factor = 0;
@@ -93,13 +95,15 @@ static affine random_affine(struct random *r) {
 static void compose_applies_the_second_argument_first(void **state) {
     (void)state;
     struct random r = random_begin();
-    const affine move_then_scale = affine_compose(affine_scale(vec3_all(2)), affine_translate((vec3){1, 2, 3}));
+    const affine move_then_scale =
+        affine_compose(affine_scale(vec3_all(2)), affine_translate((vec3){1, 2, 3}));
     assert_vec3_same(affine_point(&move_then_scale, (vec3){0, 0, 0}), (vec3){2, 4, 6});
     for (int i = 0; i < 1000; i++) {
         const affine a = random_affine(&r), b = random_affine(&r), ab = affine_compose(a, b);
         const vec3 p = random_vec3(&r, -5, 5);
         assert_vec3_near(affine_point(&ab, p), affine_point(&a, affine_point(&b, p)), 1e-12, "point");
-        assert_vec3_near(affine_direction(&ab, p), affine_direction(&a, affine_direction(&b, p)), 1e-12, "direction");
+        assert_vec3_near(affine_direction(&ab, p), affine_direction(&a, affine_direction(&b, p)), 1e-12,
+                         "direction");
     }
 }
 
@@ -187,7 +191,8 @@ static void random_inverses(void **state) {
             for (int c = 0; c < 3; c++) largest = fmaxl(largest, fabsl(want[row][c]));
             for (int c = 0; c < 4; c++) {
                 const long double scale = c < 3 ? largest : largest * 9;
-                assert_near((double)((inverse.m[row][c] - want[row][c]) / scale), 0, 1e-11, "entry of the inverse");
+                assert_near((double)((inverse.m[row][c] - want[row][c]) / scale), 0, 1e-11,
+                            "entry of the inverse");
             }
         }
     }
@@ -221,7 +226,8 @@ static void extreme_sizes_have_inverses(void **state) {
     (void)state;
     const double sizes[] = {1e-99, 1e-50, 1e-10, 1, 1e10, 1e50, 1e99};
     for (size_t i = 0; i < COUNT(sizes); i++) {
-        const affine map = affine_compose(affine_rotate((vec3){1, 2, 3}, 40), affine_scale((vec3){sizes[i], 1, -1}));
+        const affine map =
+            affine_compose(affine_rotate((vec3){1, 2, 3}, 40), affine_scale((vec3){sizes[i], 1, -1}));
         affine inverse;
         assert_true(affine_invert(map, &inverse));
         const affine one = affine_compose(inverse, map);
@@ -247,11 +253,16 @@ static struct similar {
     double scale[3], shear;
     double factor; /* 0: none */
 } similars[] = {
-    {"similar: identity", {1, 1, 1}, 0, 1},        {"similar: uniform", {2, 2, 2}, 0, 2},
-    {"similar: mirrored", {-3, 3, 3}, 0, 3},       {"similar: turned inside out", {-3, -3, -3}, 0, 3},
-    {"similar: tiny", {1e-90, 1e-90, 1e-90}, 0, 1e-90}, {"similar: huge", {1e90, 1e90, 1e90}, 0, 1e90},
-    {"not similar: stretched", {1, 1, 1.0001}, 0, 0}, {"not similar: stretched a little", {1, 1 + 1e-11, 1}, 0, 0},
-    {"not similar: sheared", {1, 1, 1}, 1e-10, 0},  {"not similar: null", {0, 0, 0}, 0, 0},
+    {"similar: identity", {1, 1, 1}, 0, 1},
+    {"similar: uniform", {2, 2, 2}, 0, 2},
+    {"similar: mirrored", {-3, 3, 3}, 0, 3},
+    {"similar: turned inside out", {-3, -3, -3}, 0, 3},
+    {"similar: tiny", {1e-90, 1e-90, 1e-90}, 0, 1e-90},
+    {"similar: huge", {1e90, 1e90, 1e90}, 0, 1e90},
+    {"not similar: stretched", {1, 1, 1.0001}, 0, 0},
+    {"not similar: stretched a little", {1, 1 + 1e-11, 1}, 0, 0},
+    {"not similar: sheared", {1, 1, 1}, 1e-10, 0},
+    {"not similar: null", {0, 0, 0}, 0, 0},
     {"not similar: NaN", {NAN, NAN, NAN}, 0, 0},
 };
 
@@ -259,11 +270,14 @@ static void check_similar(void **state) {
     const struct similar *row = *state;
     affine map = affine_scale((vec3){row->scale[0], row->scale[1], row->scale[2]});
     map.m[0][1] = row->shear;
-    map = affine_compose(affine_rotate((vec3){3, 1, 2}, 77), affine_compose(affine_translate((vec3){5, 6, 7}), map));
+    map = affine_compose(affine_rotate((vec3){3, 1, 2}, 77),
+                         affine_compose(affine_translate((vec3){5, 6, 7}), map));
     double factor = -1;
     assert_int_equal(affine_is_similarity(map, &factor), row->factor != 0);
-    if (row->factor != 0) assert_near(factor / row->factor, 1, 1e-14, "factor");
-    else assert_true(factor == -1);
+    if (row->factor != 0)
+        assert_near(factor / row->factor, 1, 1e-14, "factor");
+    else
+        assert_true(factor == -1);
 }
 
 static void finite_means_all_twelve(void **state) {
@@ -279,9 +293,12 @@ static void finite_means_all_twelve(void **state) {
 int main(void) {
     struct CMUnitTest tests[COUNT(turns) + COUNT(singulars) + COUNT(similars)];
     size_t n = 0;
-    for (size_t i = 0; i < COUNT(turns); i++) tests[n++] = (struct CMUnitTest){turns[i].name, check_turn, NULL, NULL, &turns[i]};
-    for (size_t i = 0; i < COUNT(singulars); i++) tests[n++] = (struct CMUnitTest){singulars[i].name, check_singular, NULL, NULL, &singulars[i]};
-    for (size_t i = 0; i < COUNT(similars); i++) tests[n++] = (struct CMUnitTest){similars[i].name, check_similar, NULL, NULL, &similars[i]};
+    for (size_t i = 0; i < COUNT(turns); i++)
+        tests[n++] = (struct CMUnitTest){turns[i].name, check_turn, NULL, NULL, &turns[i]};
+    for (size_t i = 0; i < COUNT(singulars); i++)
+        tests[n++] = (struct CMUnitTest){singulars[i].name, check_singular, NULL, NULL, &singulars[i]};
+    for (size_t i = 0; i < COUNT(similars); i++)
+        tests[n++] = (struct CMUnitTest){similars[i].name, check_similar, NULL, NULL, &similars[i]};
     const struct CMUnitTest others[] = {
         cmocka_unit_test(thirty_degrees_have_an_exact_half),
         cmocka_unit_test(a_third_turn_about_the_diagonal_permutes_the_axes),
@@ -295,5 +312,6 @@ int main(void) {
         cmocka_unit_test(nearly_flat_is_not_flat),
         cmocka_unit_test(finite_means_all_twelve),
     };
-    return cmocka_run_group_tests_name("rows", tests, NULL, NULL) + cmocka_run_group_tests_name("affine", others, NULL, NULL);
+    return cmocka_run_group_tests_name("rows", tests, NULL, NULL) +
+           cmocka_run_group_tests_name("affine", others, NULL, NULL);
 }

@@ -140,11 +140,16 @@ static void after_being_full_smaller_pieces_still_fit(void **state) {
 
 int main(void) {
     struct CMUnitTest tests[COUNT(fulls)];
-    for (size_t i = 0; i < COUNT(fulls); i++) tests[i] = (struct CMUnitTest){fulls[i].name, check_full, NULL, NULL, &fulls[i]};
+    for (size_t i = 0; i < COUNT(fulls); i++)
+        tests[i] = (struct CMUnitTest){fulls[i].name, check_full, NULL, NULL, &fulls[i]};
     const struct CMUnitTest others[] = {
-        cmocka_unit_test(allocations_are_zeroed_aligned_and_apart), cmocka_unit_test(memory_is_zeroed_again_after_a_release),
-        cmocka_unit_test(marks_nest_and_keep_what_was_before),      cmocka_unit_test(texts_are_copies_with_a_final_zero),
-        cmocka_unit_test(an_array_that_overflows_is_full),          cmocka_unit_test(after_being_full_smaller_pieces_still_fit),
+        cmocka_unit_test(allocations_are_zeroed_aligned_and_apart),
+        cmocka_unit_test(memory_is_zeroed_again_after_a_release),
+        cmocka_unit_test(marks_nest_and_keep_what_was_before),
+        cmocka_unit_test(texts_are_copies_with_a_final_zero),
+        cmocka_unit_test(an_array_that_overflows_is_full),
+        cmocka_unit_test(after_being_full_smaller_pieces_still_fit),
     };
-    return cmocka_run_group_tests_name("full", tests, NULL, NULL) + cmocka_run_group_tests_name("arena", others, NULL, NULL);
+    return cmocka_run_group_tests_name("full", tests, NULL, NULL) +
+           cmocka_run_group_tests_name("arena", others, NULL, NULL);
 }

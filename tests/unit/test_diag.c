@@ -22,7 +22,7 @@ static void assert_printed(const struct diagnostics *diag, const char *want) {
 
 /* ---- One message ---- */
 
-#define TEN "0123456789"
+#define TEN     "0123456789"
 #define HUNDRED TEN TEN TEN TEN TEN TEN TEN TEN TEN TEN
 
 static struct row {
@@ -30,7 +30,8 @@ static struct row {
     uint32_t line, column, length;
     const char *want;
 } rows[] = {
-    {"a word", "scene:\n  - spere: {}\n", 1, 4, 5, "f:2:5: error[code]: oops\n    2 |   - spere: {}\n      |     ^~~~~\n"},
+    {"a word", "scene:\n  - spere: {}\n", 1, 4, 5,
+     "f:2:5: error[code]: oops\n    2 |   - spere: {}\n      |     ^~~~~\n"},
     {"a caret alone", "abc", 0, 1, 0, "f:1:2: error[code]: oops\n    1 | abc\n      |  ^\n"},
     {"longer than the line", "abc", 0, 1, 9, "f:1:2: error[code]: oops\n    1 | abc\n      |  ^~\n"},
     {"at the end of the line", "abc\n", 0, 3, 1, "f:1:4: error[code]: oops\n    1 | abc\n      |    ^\n"},
@@ -38,21 +39,51 @@ static struct row {
     {"behind the end", "abc\n", 1, 0, 1, "f:2:1: error[code]: oops\n    2 | \n      | ^\n"},
     {"nowhere in the text", "abc\n", 7, 3, 1, "f:8:4: error[code]: oops\n"},
     {"an empty text", "", 0, 0, 1, "f:1:1: error[code]: oops\n    1 | \n      | ^\n"},
-    {"carriage returns are not shown", "ab\r\ncd\r\n", 1, 0, 2, "f:2:1: error[code]: oops\n    2 | cd\n      | ^~\n"},
-    {"characters count, not bytes", "k\xc3\xb6nig: 1", 0, 7, 1, "f:1:8: error[code]: oops\n    1 | k\xc3\xb6nig: 1\n      |        ^\n"},
+    {"carriage returns are not shown", "ab\r\ncd\r\n", 1, 0, 2,
+     "f:2:1: error[code]: oops\n    2 | cd\n      | ^~\n"},
+    {"characters count, not bytes", "k\xc3\xb6nig: 1", 0, 7, 1,
+     "f:1:8: error[code]: oops\n    1 | k\xc3\xb6nig: 1\n      |        ^\n"},
     {"a tab takes one column", "\ta\tb", 0, 3, 1, "f:1:4: error[code]: oops\n    1 |  a b\n      |    ^\n"},
     {"an escape code", "a\033[31mb", 0, 6, 1, "f:1:7: error[code]: oops\n    1 | a?[31mb\n      |       ^\n"},
-    {"a control of the second set", "a\xc2\x9b" "b", 0, 2, 1, "f:1:3: error[code]: oops\n    1 | a?b\n      |   ^\n"},
-    {"a turn of direction", "a\xe2\x80\xae" "b", 0, 2, 1, "f:1:3: error[code]: oops\n    1 | a?b\n      |   ^\n"},
-    {"a byte order mark", "\xef\xbb\xbf" "b", 0, 1, 1, "f:1:2: error[code]: oops\n    1 | ?b\n      |  ^\n"},
-    {"not UTF-8", "a\xff" "b\xe9", 0, 2, 1, "f:1:3: error[code]: oops\n    1 | a?b?\n      |   ^\n"},
-    {"half a surrogate pair", "a\xed\xa0\x80" "b", 0, 2, 1, "f:1:3: error[code]: oops\n    1 | a?b\n      |   ^\n"},
-    {"an overlong slash", "a\xc0\xaf" "b", 0, 2, 1, "f:1:3: error[code]: oops\n    1 | a?b\n      |   ^\n"},
-    {"past the last code point", "a\xf4\x90\x80\x80" "b", 0, 2, 1, "f:1:3: error[code]: oops\n    1 | a?b\n      |   ^\n"},
-    {"a smiley", "a\xf0\x9f\x98\x80" "b", 0, 2, 1, "f:1:3: error[code]: oops\n    1 | a\xf0\x9f\x98\x80" "b\n      |   ^\n"},
-    {"the start of a long line", HUNDRED "xyz", 0, 5, 1, "f:1:6: error[code]: oops\n    1 | " HUNDRED "...\n      |      ^\n"},
+    {"a control of the second set",
+     "a\xc2\x9b"
+     "b",
+     0, 2, 1, "f:1:3: error[code]: oops\n    1 | a?b\n      |   ^\n"},
+    {"a turn of direction",
+     "a\xe2\x80\xae"
+     "b",
+     0, 2, 1, "f:1:3: error[code]: oops\n    1 | a?b\n      |   ^\n"},
+    {"a byte order mark",
+     "\xef\xbb\xbf"
+     "b",
+     0, 1, 1, "f:1:2: error[code]: oops\n    1 | ?b\n      |  ^\n"},
+    {"not UTF-8",
+     "a\xff"
+     "b\xe9",
+     0, 2, 1, "f:1:3: error[code]: oops\n    1 | a?b?\n      |   ^\n"},
+    {"half a surrogate pair",
+     "a\xed\xa0\x80"
+     "b",
+     0, 2, 1, "f:1:3: error[code]: oops\n    1 | a?b\n      |   ^\n"},
+    {"an overlong slash",
+     "a\xc0\xaf"
+     "b",
+     0, 2, 1, "f:1:3: error[code]: oops\n    1 | a?b\n      |   ^\n"},
+    {"past the last code point",
+     "a\xf4\x90\x80\x80"
+     "b",
+     0, 2, 1, "f:1:3: error[code]: oops\n    1 | a?b\n      |   ^\n"},
+    {"a smiley",
+     "a\xf0\x9f\x98\x80"
+     "b",
+     0, 2, 1,
+     "f:1:3: error[code]: oops\n    1 | a\xf0\x9f\x98\x80"
+     "b\n      |   ^\n"},
+    {"the start of a long line", HUNDRED "xyz", 0, 5, 1,
+     "f:1:6: error[code]: oops\n    1 | " HUNDRED "...\n      |      ^\n"},
     {"the middle of a long line", HUNDRED HUNDRED, 0, 100, 1,
-     "f:1:101: error[code]: oops\n    1 | ..." HUNDRED "...\n      |                                                                ^\n"},
+     "f:1:101: error[code]: oops\n    1 | ..." HUNDRED
+     "...\n      |                                                                ^\n"},
     {"the end of a long line", HUNDRED, 0, 90, 50,
      "f:1:91: error[code]: oops\n    1 | ..." TEN TEN TEN TEN TEN TEN TEN "\n"
      "      |                                                                ^~~~~~~~~~\n"},
@@ -90,7 +121,8 @@ static void help_note_and_related(void **state) {
     diag_related(&diag, d, at(0, 0), "first given %s", "here");
     diag_related(&diag, d, at(1, 0), "and here");
     diag_help(&diag, d, "remove %s", "it");
-    assert_printed(&diag, "king.yaml:3:2: error[code]: `hr` is given twice\n    3 | three\n      |  ^~ remove it\n      = 3 takes these\n"
+    assert_printed(&diag, "king.yaml:3:2: error[code]: `hr` is given twice\n    3 | three\n      |  ^~ "
+                          "remove it\n      = 3 takes these\n"
                           "king.yaml:1:1: note: first given here\n    1 | one\n      | ^~\n"
                           "king.yaml:2:1: note: and here\n    2 | two\n      | ^~\n");
     diag_free(&diag);
@@ -101,7 +133,8 @@ static void warnings_and_failures(void **state) {
     struct diagnostics diag = {0};
     diag_warning(&diag, at(0, 0), "code", "odd");
     diag_help(&diag, diag_failure(&diag, "code", "cannot read %s", "x"), "try y");
-    assert_printed(&diag, "king.yaml:1:1: warning[code]: odd\n    1 | one\n      | ^~\nmonge: error[code]: cannot read x\n      = try y\n");
+    assert_printed(&diag, "king.yaml:1:1: warning[code]: odd\n    1 | one\n      | ^~\nmonge: error[code]: "
+                          "cannot read x\n      = try y\n");
     assert_int_equal(diag.errors, 0);
     assert_int_equal(diag.warnings, 1);
     assert_int_equal(diag.failures, 1);
@@ -114,7 +147,8 @@ static void texts_cannot_harm_a_terminal(void **state) {
     (void)state;
     const struct source source = {"a\033]0;b.yaml", "", 0};
     struct diagnostics diag = {0};
-    struct diagnostic *d = diag_error(&diag, (struct span){&source, 3, 0, 1}, "code", "found `%s`", "\033[2J\xc2\x9b\x7f\n\xff\xe2\x80\xa8");
+    struct diagnostic *d = diag_error(&diag, (struct span){&source, 3, 0, 1}, "code", "found `%s`",
+                                      "\033[2J\xc2\x9b\x7f\n\xff\xe2\x80\xa8");
     diag_help(&diag, d, "\r%s", "\xe2\x80\xae");
     assert_printed(&diag, "a?]0;b.yaml:4:1: error[code]: found `?[2J?????`\n    4 | \n      | ^ ??\n");
     diag_free(&diag);
@@ -157,7 +191,8 @@ static void fifty_are_kept_and_all_are_counted(void **state) {
     struct diagnostics diag = {0};
     for (int i = 0; i < 100000; i++) {
         assert_int_equal(diag_full(&diag), i >= DIAG_MAX_KEPT);
-        struct diagnostic *d = i % 10 ? diag_error(&diag, at((uint32_t)i, 0), "code", "e%d", i) : diag_warning(&diag, at((uint32_t)i, 0), "code", "w%d", i);
+        struct diagnostic *d = i % 10 ? diag_error(&diag, at((uint32_t)i, 0), "code", "e%d", i)
+                                      : diag_warning(&diag, at((uint32_t)i, 0), "code", "w%d", i);
         diag_help(&diag, d, "help");
         diag_note(&diag, d, "note");
         diag_related(&diag, d, at(0, 0), "related");
@@ -168,7 +203,8 @@ static void fifty_are_kept_and_all_are_counted(void **state) {
     assert_true(diag.arena.total < 200000);
     diag_failure(&diag, "code", "failures are always kept");
     char *text = printed(&diag);
-    assert_non_null(strstr(text, "king.yaml:50:1: error[code]: e49\n   50 | \n      | ^ help\n      = note\n"));
+    assert_non_null(
+        strstr(text, "king.yaml:50:1: error[code]: e49\n   50 | \n      | ^ help\n      = note\n"));
     assert_non_null(strstr(text, "monge: error[code]: failures are always kept\n... and 99950 more\n"));
     assert_null(strstr(text, "e50"));
     free(text);
@@ -189,7 +225,8 @@ static void a_place_outlives_its_source(void **state) {
 
 int main(void) {
     struct CMUnitTest tests[COUNT(rows)];
-    for (size_t i = 0; i < COUNT(rows); i++) tests[i] = (struct CMUnitTest){rows[i].name, check_row, NULL, NULL, &rows[i]};
+    for (size_t i = 0; i < COUNT(rows); i++)
+        tests[i] = (struct CMUnitTest){rows[i].name, check_row, NULL, NULL, &rows[i]};
     const struct CMUnitTest others[] = {
         cmocka_unit_test(a_zero_byte_is_shown),
         cmocka_unit_test(help_note_and_related),
@@ -200,5 +237,6 @@ int main(void) {
         cmocka_unit_test(fifty_are_kept_and_all_are_counted),
         cmocka_unit_test(a_place_outlives_its_source),
     };
-    return cmocka_run_group_tests_name("rows", tests, NULL, NULL) + cmocka_run_group_tests_name("diag", others, NULL, NULL);
+    return cmocka_run_group_tests_name("rows", tests, NULL, NULL) +
+           cmocka_run_group_tests_name("diag", others, NULL, NULL);
 }

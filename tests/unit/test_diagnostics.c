@@ -59,7 +59,8 @@ static void check_define(void **state) {
     static const struct monge_define width = {"widht", "2"};
     static const char text[] = "params: {width: 1}\nscene: [{sphere: {radius: width}}]";
     struct monge_diagnostics *diag = monge_diagnostics_new();
-    assert_null(monge_load_memory("a", text, strlen(text), &(struct monge_load_options){.defines = &width, .define_count = 1}, diag));
+    assert_null(monge_load_memory("a", text, strlen(text),
+                                  &(struct monge_load_options){.defines = &width, .define_count = 1}, diag));
     const char *json = document(diag, MONGE_FORMAT_JSON);
     assert_non_null(strstr(json, CODE("unknown-parameter")));
     assert_non_null(strstr(json, "did you mean `width`?"));
@@ -71,7 +72,8 @@ static void check_untrusted(void **state) {
     (void)state;
     static const char text[] = "include: ../../dev/null\nscene: [{sphere: {}}]";
     struct monge_diagnostics *diag = monge_diagnostics_new();
-    assert_null(monge_load_memory("/usr/bin/a.yaml", text, strlen(text), &(struct monge_load_options){.untrusted = true}, diag));
+    assert_null(monge_load_memory("/usr/bin/a.yaml", text, strlen(text),
+                                  &(struct monge_load_options){.untrusted = true}, diag));
     assert_non_null(strstr(document(diag, MONGE_FORMAT_JSON), CODE("include-outside")));
     assert_int_equal(monge_diagnostics_errors(diag), 1);
     monge_diagnostics_free(diag);
@@ -128,8 +130,10 @@ static void check_explain(void **state) {
     assert_int_equal(size, 0);
     assert_true(monge_explain("second-document", out));
     fclose(out);
-    assert_int_equal(strncmp(text, "second-document (error)\n\nThere is a second document in the file.\n\n", 66), 0);
-    assert_non_null(strstr(text, "\nwrong:\n\n    scene: [{sphere: {}}]\n    ---\n    scene: [{cylinder: {}}]\n\nright:\n\n    scene: "));
+    assert_int_equal(
+        strncmp(text, "second-document (error)\n\nThere is a second document in the file.\n\n", 66), 0);
+    assert_non_null(strstr(text, "\nwrong:\n\n    scene: [{sphere: {}}]\n    ---\n    scene: [{cylinder: "
+                                 "{}}]\n\nright:\n\n    scene: "));
     for (const char *line = text; line; line = strchr(line, '\n') ? strchr(line, '\n') + 1 : NULL)
         assert_true(strcspn(line, "\n") <= 80);
     free(text);
@@ -137,8 +141,9 @@ static void check_explain(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(check_memory_limit), cmocka_unit_test(check_file_limit), cmocka_unit_test(check_define),
-        cmocka_unit_test(check_untrusted),    cmocka_unit_test(check_loads),      cmocka_unit_test(check_text),
+        cmocka_unit_test(check_memory_limit), cmocka_unit_test(check_file_limit),
+        cmocka_unit_test(check_define),       cmocka_unit_test(check_untrusted),
+        cmocka_unit_test(check_loads),        cmocka_unit_test(check_text),
         cmocka_unit_test(check_codes),        cmocka_unit_test(check_explain),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -15,7 +15,8 @@ static void assert_ulp(double got, long double want, double most, const char *wh
 /* Reduced exactly before pi comes in. */
 static long double sin_deg_long(double x) {
     const long double pi = 3.14159265358979323846264338327950288L;
-    const long double turn = fmodl(x, 360.0L), quarter = floorl(turn / 90.0L + 0.5L), rest = (turn - 90.0L * quarter) * pi / 180.0L;
+    const long double turn = fmodl(x, 360.0L), quarter = floorl(turn / 90.0L + 0.5L),
+                      rest = (turn - 90.0L * quarter) * pi / 180.0L;
     switch ((int)quarter & 3) {
     case 0: return sinl(rest);
     case 1: return cosl(rest);
@@ -26,7 +27,8 @@ static long double sin_deg_long(double x) {
 
 static long double cos_deg_long(double x) {
     const long double pi = 3.14159265358979323846264338327950288L;
-    const long double turn = fmodl(x, 360.0L), quarter = floorl(turn / 90.0L + 0.5L), rest = (turn - 90.0L * quarter) * pi / 180.0L;
+    const long double turn = fmodl(x, 360.0L), quarter = floorl(turn / 90.0L + 0.5L),
+                      rest = (turn - 90.0L * quarter) * pi / 180.0L;
     switch ((int)quarter & 3) {
     case 0: return cosl(rest);
     case 1: return -sinl(rest);
@@ -88,7 +90,8 @@ static void whole_powers_and_their_logarithms_are_exact(void **state) {
     (void)state;
     for (int base = 2; base < 1000; base++) {
         double want = 1;
-        for (int exponent = 0; want <= 0x1p53; exponent++, want *= base) assert_true(elementary_pow(base, exponent) == want);
+        for (int exponent = 0; want <= 0x1p53; exponent++, want *= base)
+            assert_true(elementary_pow(base, exponent) == want);
     }
     for (int i = -1000; i <= 1000; i++) assert_true(elementary_log2(ldexp(1, i)) == i);
     double ten = 1;
@@ -116,10 +119,12 @@ static void angles_of_whole_degrees(void **state) {
         assert_true(elementary_acos_deg(sines[i][0]) == 90 - sines[i][1]);
     }
     for (int i = -3; i <= 4; i++) {
-        static const double at[] = {0, 7, 7, 7, 0, -7, -7, -7}; /* the sine of i eighths of a turn, but for its length */
+        static const double at[] = {0, 7,  7,  7,
+                                    0, -7, -7, -7}; /* the sine of i eighths of a turn, but for its length */
         assert_true(elementary_atan2_deg(at[i & 7], at[(i + 2) & 7]) == 45 * i);
     }
-    assert_true(elementary_atan2_deg(-0.0, -1) == 180 && elementary_atan2_deg(-0.0, 0) == 0 && elementary_atan2_deg(0, -0.0) == 0);
+    assert_true(elementary_atan2_deg(-0.0, -1) == 180 && elementary_atan2_deg(-0.0, 0) == 0 &&
+                elementary_atan2_deg(0, -0.0) == 0);
     assert_true(elementary_atan_deg(1) == 45 && elementary_atan_deg(-1) == -45);
 }
 
@@ -127,11 +132,17 @@ static struct exact {
     const char *name;
     double angle_deg, sine, cosine;
 } exacts[] = {
-    {"0", 0, 0, 1},       {"90", 90, 1, 0},      {"180", 180, 0, -1},   {"270", 270, -1, 0},  {"360", 360, 0, 1},
-    {"-90", -90, -1, 0},  {"-180", -180, 0, -1}, {"450", 450, 1, 0},    {"-270", -270, 1, 0}, {"1e15 turns of 360", 360e15, 0, 1},
-    {"30", 30, 0.5, NAN}, {"150", 150, 0.5, NAN}, {"210", 210, -0.5, NAN}, {"330", 330, -0.5, NAN}, {"-30", -30, -0.5, NAN},
-    {"390", 390, 0.5, NAN}, {"60", 60, NAN, 0.5}, {"120", 120, NAN, -0.5}, {"240", 240, NAN, -0.5}, {"300", 300, NAN, 0.5},
-    {"-60", -60, NAN, 0.5}, {"420", 420, NAN, 0.5},
+    {"0", 0, 0, 1},          {"90", 90, 1, 0},
+    {"180", 180, 0, -1},     {"270", 270, -1, 0},
+    {"360", 360, 0, 1},      {"-90", -90, -1, 0},
+    {"-180", -180, 0, -1},   {"450", 450, 1, 0},
+    {"-270", -270, 1, 0},    {"1e15 turns of 360", 360e15, 0, 1},
+    {"30", 30, 0.5, NAN},    {"150", 150, 0.5, NAN},
+    {"210", 210, -0.5, NAN}, {"330", 330, -0.5, NAN},
+    {"-30", -30, -0.5, NAN}, {"390", 390, 0.5, NAN},
+    {"60", 60, NAN, 0.5},    {"120", 120, NAN, -0.5},
+    {"240", 240, NAN, -0.5}, {"300", 300, NAN, 0.5},
+    {"-60", -60, NAN, 0.5},  {"420", 420, NAN, 0.5},
 };
 
 static void check_exact(void **state) {
@@ -180,12 +191,21 @@ static void arctangent(void **state) {
 
 int main(void) {
     struct CMUnitTest tests[COUNT(exacts)];
-    for (size_t i = 0; i < COUNT(exacts); i++) tests[i] = (struct CMUnitTest){exacts[i].name, check_exact, NULL, NULL, &exacts[i]};
+    for (size_t i = 0; i < COUNT(exacts); i++)
+        tests[i] = (struct CMUnitTest){exacts[i].name, check_exact, NULL, NULL, &exacts[i]};
     const struct CMUnitTest others[] = {
-        cmocka_unit_test(sine_and_cosine), cmocka_unit_test(tangent), cmocka_unit_test(arctangent),        cmocka_unit_test(power),
-        cmocka_unit_test(symmetries_hold_exactly), cmocka_unit_test(tangents_of_45), cmocka_unit_test(powers_at_the_ends),
-        cmocka_unit_test(exponentials_and_logarithms), cmocka_unit_test(whole_powers_and_their_logarithms_are_exact),
-        cmocka_unit_test(inverses), cmocka_unit_test(angles_of_whole_degrees),
+        cmocka_unit_test(sine_and_cosine),
+        cmocka_unit_test(tangent),
+        cmocka_unit_test(arctangent),
+        cmocka_unit_test(power),
+        cmocka_unit_test(symmetries_hold_exactly),
+        cmocka_unit_test(tangents_of_45),
+        cmocka_unit_test(powers_at_the_ends),
+        cmocka_unit_test(exponentials_and_logarithms),
+        cmocka_unit_test(whole_powers_and_their_logarithms_are_exact),
+        cmocka_unit_test(inverses),
+        cmocka_unit_test(angles_of_whole_degrees),
     };
-    return cmocka_run_group_tests_name("exact", tests, NULL, NULL) + cmocka_run_group_tests_name("elementary", others, NULL, NULL);
+    return cmocka_run_group_tests_name("exact", tests, NULL, NULL) +
+           cmocka_run_group_tests_name("elementary", others, NULL, NULL);
 }

@@ -20,10 +20,11 @@ typedef long double real;
 static const real pi = 3.14159265358979323846264338327950288L;
 
 #define PIXEL "image: {size: [1, 1], samples: 1, background: black}\n"
-#define GLOW(color) "{ambient: " color ", diffuse: black}" /* its colour is seen under GLOW_LIGHT alone, flat */
+#define GLOW(color)                                                                                          \
+    "{ambient: " color ", diffuse: black}" /* its colour is seen under GLOW_LIGHT alone, flat */
 #define GLOW_LIGHT "lights: [{ambient: {}}]\n"
-#define GLASS "{diffuse: black, refraction: 1, index: 1.5}"
-#define SLANTED "camera: {eye: [-5, 0, 5], direction: [1, 0, -1]}\n" /* at 45 degrees through the origin */
+#define GLASS      "{diffuse: black, refraction: 1, index: 1.5}"
+#define SLANTED    "camera: {eye: [-5, 0, 5], direction: [1, 0, -1]}\n" /* at 45 degrees through the origin */
 
 static struct monge_film *render(const char *text, const double *shadow) {
     struct monge_diagnostics *diag = monge_diagnostics_new();
@@ -63,20 +64,27 @@ static void assert_near(double got, double want, double tolerance, const char *w
 /* The view, mirrored, meets the red wall; the light, mirrored, would meet the blue one. */
 static void test_view_is_mirrored(void **state) {
     (void)state;
-    assert_color(PIXEL SLANTED "lights: [{ambient: {}}, {point: {at: [5, 0, 1], color: black}}]\n"
-                 "scene:\n"
-                 "  - {plane: {}, material: {diffuse: black, reflection: 1}}\n"
-                 "  - {square: {size: 12}, transform: [{rotate: {y: 90}}, {translate: [9, 0, 6.5]}], material: " GLOW("red") "}\n"
-                 "  - {square: {size: 2}, transform: [{rotate: {y: 90}}, {translate: [-9, 0, 1.8]}], material: " GLOW("blue") "}\n",
-                 1, 0, 0);
+    assert_color(
+        PIXEL SLANTED
+        "lights: [{ambient: {}}, {point: {at: [5, 0, 1], color: black}}]\n"
+        "scene:\n"
+        "  - {plane: {}, material: {diffuse: black, reflection: 1}}\n"
+        "  - {square: {size: 12}, transform: [{rotate: {y: 90}}, {translate: [9, 0, 6.5]}], material: " GLOW(
+            "red") "}\n"
+                   "  - {square: {size: 2}, transform: [{rotate: {y: 90}}, {translate: [-9, 0, 1.8]}], "
+                   "material: " GLOW("blue") "}\n",
+        1, 0, 0);
 }
 
 /* r = d - 2 (n.d) n whatever the length of a normal or the scale of what carries it. */
 static void test_mirror_under_a_scale(void **state) {
     (void)state;
-    assert_color(PIXEL SLANTED GLOW_LIGHT "scene:\n"
-                 "  - {square: {}, transform: {scale: [7, 3, 0.01]}, material: {diffuse: black, reflection: 1}}\n"
-                 "  - {disc: {center: [4, 0, 4], normal: [1, 0, 1], radius: 0.001}, material: " GLOW("red") "}\n", 1, 0, 0);
+    assert_color(
+        PIXEL SLANTED GLOW_LIGHT
+        "scene:\n"
+        "  - {square: {}, transform: {scale: [7, 3, 0.01]}, material: {diffuse: black, reflection: 1}}\n"
+        "  - {disc: {center: [4, 0, 4], normal: [1, 0, 1], radius: 0.001}, material: " GLOW("red") "}\n",
+        1, 0, 0);
 }
 
 /* ---- A: the offset of secondary rays ---- */
@@ -100,9 +108,11 @@ static char *lone_body(const char *body, double size, double at, const double si
              "image: {size: [48, 48], samples: 1, background: black}\n"
              "camera: {eye: [%.17g, %.17g, %.17g], look_at: [%.17g, %.17g, %.17g], fov: 30}\n"
              "lights: [{point: {at: [%.17g, %.17g, %.17g]}}]\n"
-             "scene: [{%s, transform: [{scale: %.17g}, {translate: [%.17g, %.17g, %.17g]}], material: {diffuse: white}}]\n",
+             "scene: [{%s, transform: [{scale: %.17g}, {translate: [%.17g, %.17g, %.17g]}], material: "
+             "{diffuse: white}}]\n",
              at + 5 * size * side[0], at + 5 * size * side[1], at + 5 * size * side[2], at, at, at,
-             at + 20 * size * side[0], at + 2 * size * side[1], at + 20 * size * side[2], moved, size, at, at, at);
+             at + 20 * size * side[0], at + 2 * size * side[1], at + 20 * size * side[2], moved, size, at, at,
+             at);
     return text;
 }
 
@@ -119,8 +129,8 @@ static void no_shadow_on_itself(double size, double at) {
             for (size_t k = 0; k < (size_t)48 * 48 * 3; k++) {
                 sum += (double)b[k];
                 if (fabsf(a[k] - b[k]) > 1e-4f)
-                    fail_msg("{%s}, size %g at %g, side %zu: value %zu is %g in shadow, %g without", bodies[i], size, at, j, k,
-                             (double)a[k], (double)b[k]);
+                    fail_msg("{%s}, size %g at %g, side %zu: value %zu is %g in shadow, %g without",
+                             bodies[i], size, at, j, k, (double)a[k], (double)b[k]);
             }
             assert_true(sum > 100);
             monge_film_free(with);
@@ -152,19 +162,23 @@ static void test_offset_far_away(void **state) {
 /* Mirrors, glass and shadows on a scale that a fixed offset would drown in, or would not leave. */
 static char *scaled_world(double s) {
     static char text[2000];
-    snprintf(text, sizeof text,
-             "image: {size: [96, 72], samples: 1, background: {bottom: white, top: black}}\n"
-             "camera: {eye: [%.17g, %.17g, %.17g], look_at: [0, 0, 0], fov: 40}\n"
-             "lights: [{point: {at: [%.17g, %.17g, %.17g]}}, {ambient: {}}]\n"
-             "scene:\n"
-             "  - group:\n"
-             "      - {plane: {point: [0, -1, 0], normal: [0, 1, 0]}, material: {diffuse: [0.8, 0.8, 0.7], reflection: 0.1}}\n"
-             "      - {sphere: {center: [-1.1, 0, 0]}, material: {diffuse: [0.1, 0.1, 0.1], reflection: 0.8}}\n"
-             "      - {sphere: {center: [1, -0.2, 0.3], radius: 0.8}, material: " GLASS "}\n"
-             "      - {cylinder: {from: [0.2, -1, -1], to: [0.2, 1, -1.4], radius: 0.3}, material: {diffuse: [0.8, 0.2, 0.1]}}\n"
-             "      - {cone: {from: [-0.2, -1, 1], to: [-0.2, 0, 1], radius: 0.4}, material: {diffuse: [0.1, 0.6, 0.3], reflection: 0.2}}\n"
-             "    transform: {scale: %.17g}\n",
-             1 * s, 2 * s, 7 * s, -4 * s, 6 * s, 5 * s, s);
+    snprintf(
+        text, sizeof text,
+        "image: {size: [96, 72], samples: 1, background: {bottom: white, top: black}}\n"
+        "camera: {eye: [%.17g, %.17g, %.17g], look_at: [0, 0, 0], fov: 40}\n"
+        "lights: [{point: {at: [%.17g, %.17g, %.17g]}}, {ambient: {}}]\n"
+        "scene:\n"
+        "  - group:\n"
+        "      - {plane: {point: [0, -1, 0], normal: [0, 1, 0]}, material: {diffuse: [0.8, 0.8, 0.7], "
+        "reflection: 0.1}}\n"
+        "      - {sphere: {center: [-1.1, 0, 0]}, material: {diffuse: [0.1, 0.1, 0.1], reflection: 0.8}}\n"
+        "      - {sphere: {center: [1, -0.2, 0.3], radius: 0.8}, material: " GLASS "}\n"
+        "      - {cylinder: {from: [0.2, -1, -1], to: [0.2, 1, -1.4], radius: 0.3}, material: {diffuse: "
+        "[0.8, 0.2, 0.1]}}\n"
+        "      - {cone: {from: [-0.2, -1, 1], to: [-0.2, 0, 1], radius: 0.4}, material: {diffuse: [0.1, 0.6, "
+        "0.3], reflection: 0.2}}\n"
+        "    transform: {scale: %.17g}\n",
+        1 * s, 2 * s, 7 * s, -4 * s, 6 * s, 5 * s, s);
     return text;
 }
 
@@ -207,13 +221,13 @@ enum kind { ELLIPSOID, CYLINDER, CONE };
 
 enum slip {
     NO_SLIP,
-    NO_RADIUS,           /* C without - R^2 */
-    FACTOR_TWO,          /* B doubled, in roots that want it single */
-    ROOT_SIGN,           /* (B +- ...) / 2A */
-    FLAT_CONE_NORMAL,    /* the position minus (0, 0, z) */
-    NORMAL_BY_MATRIX,    /* as a direction, not by the inverse transpose */
-    NOT_NORMALIZED,      /* the inverse transpose alone */
-    INSIDE_OUT,          /* a mirrored transform turns the normals */
+    NO_RADIUS,        /* C without - R^2 */
+    FACTOR_TWO,       /* B doubled, in roots that want it single */
+    ROOT_SIGN,        /* (B +- ...) / 2A */
+    FLAT_CONE_NORMAL, /* the position minus (0, 0, z) */
+    NORMAL_BY_MATRIX, /* as a direction, not by the inverse transpose */
+    NOT_NORMALIZED,   /* the inverse transpose alone */
+    INSIDE_OUT,       /* a mirrored transform turns the normals */
 };
 
 enum step_kind { END, SCALE, ROTATE_X, ROTATE_Y, ROTATE_Z, TRANSLATE };
@@ -230,18 +244,48 @@ static const struct row {
     struct step steps[4];
 } rows[] = {
     {"cylinder: the equation has - R^2", CYLINDER, NO_RADIUS, {{ROTATE_X, 50, 0, 0}, {ROTATE_Y, 20, 0, 0}}},
-    {"cylinder: a factor 2 in B is one in the roots too", CYLINDER, FACTOR_TWO, {{ROTATE_X, 50, 0, 0}, {ROTATE_Y, 20, 0, 0}}},
+    {"cylinder: a factor 2 in B is one in the roots too",
+     CYLINDER,
+     FACTOR_TWO,
+     {{ROTATE_X, 50, 0, 0}, {ROTATE_Y, 20, 0, 0}}},
     {"cylinder: the roots have - B", CYLINDER, ROOT_SIGN, {{ROTATE_X, 50, 0, 0}, {ROTATE_Y, 20, 0, 0}}},
     {"cone: the roots have - B", CONE, ROOT_SIGN, {{ROTATE_X, -60, 0, 0}, {ROTATE_Y, 20, 0, 0}}},
-    {"cone: its normal has a z component", CONE, FLAT_CONE_NORMAL, {{ROTATE_X, -60, 0, 0}, {ROTATE_Y, 20, 0, 0}}},
-    {"cone: and keeps it under a scale", CONE, FLAT_CONE_NORMAL, {{SCALE, 0.8, 0.6, 1.5}, {ROTATE_X, -50, 0, 0}}},
-    {"normals: by the inverse transpose, ellipsoid", ELLIPSOID, NORMAL_BY_MATRIX, {{SCALE, 0.6, 1.4, 0.8}, {ROTATE_Z, 40, 0, 0}, {ROTATE_X, -45, 0, 0}}},
-    {"normals: by the inverse transpose, cylinder", CYLINDER, NORMAL_BY_MATRIX, {{SCALE, 1.2, 0.5, 1.2}, {ROTATE_X, 60, 0, 0}, {ROTATE_Y, 30, 0, 0}}},
-    {"normals: by the inverse transpose, cone", CONE, NORMAL_BY_MATRIX, {{SCALE, 1.3, 0.6, 1.2}, {ROTATE_X, -60, 0, 0}, {ROTATE_Y, 30, 0, 0}}},
-    {"normals: normalized after that", ELLIPSOID, NOT_NORMALIZED, {{SCALE, 0.6, 1.4, 0.8}, {ROTATE_Z, 40, 0, 0}}},
-    {"normals: outwards under one mirroring", ELLIPSOID, INSIDE_OUT, {{SCALE, -0.6, 1.4, 0.8}, {ROTATE_Z, 40, 0, 0}}},
-    {"normals: outwards under three mirrorings", CYLINDER, INSIDE_OUT, {{SCALE, -1.1, -0.7, -1.2}, {ROTATE_X, 60, 0, 0}, {ROTATE_Y, 30, 0, 0}}},
-    {"normals: outwards from a mirrored cone", CONE, INSIDE_OUT, {{SCALE, 1.1, 0.9, -1.4}, {ROTATE_X, 120, 0, 0}, {TRANSLATE, 0.1, -0.5, 0.2}}},
+    {"cone: its normal has a z component",
+     CONE,
+     FLAT_CONE_NORMAL,
+     {{ROTATE_X, -60, 0, 0}, {ROTATE_Y, 20, 0, 0}}},
+    {"cone: and keeps it under a scale",
+     CONE,
+     FLAT_CONE_NORMAL,
+     {{SCALE, 0.8, 0.6, 1.5}, {ROTATE_X, -50, 0, 0}}},
+    {"normals: by the inverse transpose, ellipsoid",
+     ELLIPSOID,
+     NORMAL_BY_MATRIX,
+     {{SCALE, 0.6, 1.4, 0.8}, {ROTATE_Z, 40, 0, 0}, {ROTATE_X, -45, 0, 0}}},
+    {"normals: by the inverse transpose, cylinder",
+     CYLINDER,
+     NORMAL_BY_MATRIX,
+     {{SCALE, 1.2, 0.5, 1.2}, {ROTATE_X, 60, 0, 0}, {ROTATE_Y, 30, 0, 0}}},
+    {"normals: by the inverse transpose, cone",
+     CONE,
+     NORMAL_BY_MATRIX,
+     {{SCALE, 1.3, 0.6, 1.2}, {ROTATE_X, -60, 0, 0}, {ROTATE_Y, 30, 0, 0}}},
+    {"normals: normalized after that",
+     ELLIPSOID,
+     NOT_NORMALIZED,
+     {{SCALE, 0.6, 1.4, 0.8}, {ROTATE_Z, 40, 0, 0}}},
+    {"normals: outwards under one mirroring",
+     ELLIPSOID,
+     INSIDE_OUT,
+     {{SCALE, -0.6, 1.4, 0.8}, {ROTATE_Z, 40, 0, 0}}},
+    {"normals: outwards under three mirrorings",
+     CYLINDER,
+     INSIDE_OUT,
+     {{SCALE, -1.1, -0.7, -1.2}, {ROTATE_X, 60, 0, 0}, {ROTATE_Y, 30, 0, 0}}},
+    {"normals: outwards from a mirrored cone",
+     CONE,
+     INSIDE_OUT,
+     {{SCALE, 1.1, 0.9, -1.4}, {ROTATE_X, 120, 0, 0}, {TRANSLATE, 0.1, -0.5, 0.2}}},
 };
 
 enum { WIDTH = 64, HEIGHT = 48 };
@@ -259,9 +303,12 @@ static vec to_object(const struct row *row, vec p, real w) {
     while (last < 4 && row->steps[last].kind != END) last++;
     while (last-- > 0) {
         const struct step *s = &row->steps[last];
-        if (s->kind == SCALE) p = (vec){p.x / (real)s->x, p.y / (real)s->y, p.z / (real)s->z};
-        else if (s->kind == TRANSLATE) p = minus(p, times(w, (vec){(real)s->x, (real)s->y, (real)s->z}));
-        else p = turn(s->kind, -(real)s->x, p);
+        if (s->kind == SCALE)
+            p = (vec){p.x / (real)s->x, p.y / (real)s->y, p.z / (real)s->z};
+        else if (s->kind == TRANSLATE)
+            p = minus(p, times(w, (vec){(real)s->x, (real)s->y, (real)s->z}));
+        else
+            p = turn(s->kind, -(real)s->x, p);
     }
     return p;
 }
@@ -277,7 +324,8 @@ static vec normal_to_world(const struct row *row, vec n, enum slip slip) {
             continue;
         }
         const vec by = {(real)s->x, (real)s->y, (real)s->z};
-        n = slip == NORMAL_BY_MATRIX ? (vec){n.x * by.x, n.y * by.y, n.z * by.z} : (vec){n.x / by.x, n.y / by.y, n.z / by.z};
+        n = slip == NORMAL_BY_MATRIX ? (vec){n.x * by.x, n.y * by.y, n.z * by.z}
+                                     : (vec){n.x / by.x, n.y / by.y, n.z / by.z};
         det *= by.x * by.y * by.z;
     }
     if (slip == INSIDE_OUT && det < 0) n = times(-1, n);
@@ -296,7 +344,8 @@ struct meeting {
 
 static void meet_side(const struct row *row, vec o, vec d, enum slip slip, struct meeting *nearest) {
     const real low = row->kind == CONE ? -1 : -0.5L, high = row->kind == CONE ? 0 : 0.5L;
-    const real a = form(row->kind, d, d), c = form(row->kind, o, o) - (row->kind == CONE || slip == NO_RADIUS ? 0 : 1);
+    const real a = form(row->kind, d, d),
+               c = form(row->kind, o, o) - (row->kind == CONE || slip == NO_RADIUS ? 0 : 1);
     real b = form(row->kind, o, d);
     if (slip == FACTOR_TWO) b *= 2;
     const real disc = b * b - a * c;
@@ -305,7 +354,9 @@ static void meet_side(const struct row *row, vec o, vec d, enum slip slip, struc
         const real t = slip == ROOT_SIGN ? (b + i * sqrtl(disc)) / (2 * a) : (-b + i * sqrtl(disc)) / a;
         const vec p = add(o, times(t, d));
         if (!(t > 0 && t < nearest->t) || (row->kind != ELLIPSOID && !(p.z >= low && p.z <= high))) continue;
-        const real z = row->kind == ELLIPSOID ? p.z : row->kind == CYLINDER || slip == FLAT_CONE_NORMAL ? 0 : -p.z;
+        const real z = row->kind == ELLIPSOID                              ? p.z
+                       : row->kind == CYLINDER || slip == FLAT_CONE_NORMAL ? 0
+                                                                           : -p.z;
         *nearest = (struct meeting){t, {p.x, p.y, z}};
     }
 }
@@ -347,9 +398,13 @@ static void print_scene(const struct row *row, char *text, size_t size) {
                       WIDTH, HEIGHT, kinds[row->kind]);
     for (int i = 0; i < 4 && row->steps[i].kind != END; i++) {
         const struct step *s = &row->steps[i];
-        const char *form = s->kind == SCALE ? "{scale: [%.17g, %.17g, %.17g]}, " : "{translate: [%.17g, %.17g, %.17g]}, ";
-        if (s->kind == SCALE || s->kind == TRANSLATE) at += snprintf(text + at, size - (size_t)at, form, s->x, s->y, s->z);
-        else at += snprintf(text + at, size - (size_t)at, "{rotate: {%c: %.17g}}, ", axes[s->kind - ROTATE_X], s->x);
+        const char *form =
+            s->kind == SCALE ? "{scale: [%.17g, %.17g, %.17g]}, " : "{translate: [%.17g, %.17g, %.17g]}, ";
+        if (s->kind == SCALE || s->kind == TRANSLATE)
+            at += snprintf(text + at, size - (size_t)at, form, s->x, s->y, s->z);
+        else
+            at += snprintf(text + at, size - (size_t)at, "{rotate: {%c: %.17g}}, ", axes[s->kind - ROTATE_X],
+                           s->x);
     }
     snprintf(text + at, size - (size_t)at, "]}]\n");
 }
@@ -369,7 +424,8 @@ static void check_row(void **state) {
             lit += want[y][x] > 0;
             differ += fabsl(want[y][x] - slipped[y][x]) > 0.05L;
             if (!(fabsl((real)*got - want[y][x]) < 1e-6L))
-                fail_msg("pixel %d %d is %.9g, want %.9Lg; by the slip %.9Lg", x, y, (double)*got, want[y][x], slipped[y][x]);
+                fail_msg("pixel %d %d is %.9g, want %.9Lg; by the slip %.9Lg", x, y, (double)*got, want[y][x],
+                         slipped[y][x]);
         }
     assert_true(lit > 250);
     assert_true(differ > 100);
@@ -393,13 +449,16 @@ static const char *const coincident[][2] = {
 static void equal_hits(const char *first, const char *second, int seen, bool reversed) {
     enum { PAIRS = 30 };
     static char text[16000];
-    int at = snprintf(text, sizeof text, PIXEL "camera: {eye: [0.1, 0.05, 5], direction: [0, 0, -1]}\n" GLOW_LIGHT "scene:\n");
+    int at = snprintf(text, sizeof text,
+                      PIXEL "camera: {eye: [0.1, 0.05, 5], direction: [0, 0, -1]}\n" GLOW_LIGHT "scene:\n");
     for (int half = 0; half < 2; half++)
         for (int i = 0; i < PAIRS; i++) {
             const int pair = half && reversed ? PAIRS - 1 - i : i;
             const int column = pair == seen ? 0 : 10 + 7 * (pair * 11 % PAIRS);
-            at += snprintf(text + at, sizeof text - (size_t)at, "  - {group: [{%s}], transform: {translate: [%d, 0, %d]}, material: %s}\n",
-                           half ? second : first, column, pair == seen ? 0 : -pair - 20, half ? GLOW("blue") : GLOW("red"));
+            at += snprintf(text + at, sizeof text - (size_t)at,
+                           "  - {group: [{%s}], transform: {translate: [%d, 0, %d]}, material: %s}\n",
+                           half ? second : first, column, pair == seen ? 0 : -pair - 20,
+                           half ? GLOW("blue") : GLOW("red"));
         }
     assert_color(text, 1, 0, 0);
 }
@@ -421,11 +480,16 @@ static double arrival(const char *camera, const char *body, double depth) {
         const double middle = 0.5 * (low + high);
         char text[2000];
         double color[3];
-        snprintf(text, sizeof text, PIXEL "%s" GLOW_LIGHT "scene:\n%s  - {square: {center: [%.17g, 0, %.17g], size: 200}, material: " GLOW("white") "}\n",
+        snprintf(text, sizeof text,
+                 PIXEL "%s" GLOW_LIGHT
+                       "scene:\n%s  - {square: {center: [%.17g, 0, %.17g], size: 200}, material: " GLOW(
+                           "white") "}\n",
                  camera, body, middle - 100, -depth);
         probe(text, color);
-        if (color[0] > 0.5) high = middle;
-        else low = middle;
+        if (color[0] > 0.5)
+            high = middle;
+        else
+            low = middle;
     }
     return 0.5 * (low + high);
 }
@@ -434,16 +498,18 @@ static double arrival(const char *camera, const char *body, double depth) {
 static void test_entering(void **state) {
     (void)state;
     const double inside = asin(sqrt(0.5) / 1.5);
-    assert_near(arrival(SLANTED, "  - {plane: {}, material: " GLASS "}\n", 10), 10 * tan(inside), 1e-6, "in glass, x");
+    assert_near(arrival(SLANTED, "  - {plane: {}, material: " GLASS "}\n", 10), 10 * tan(inside), 1e-6,
+                "in glass, x");
 }
 
 /* Leaving, the camera inside of the glass: sin(out) = 1.5 sin(30), the greater angle. */
 static void test_leaving(void **state) {
     (void)state;
     const double outside = asin(1.5 * 0.5);
-    assert_near(arrival("camera: {eye: [-0.57735026918962573, 0, 1], direction: [0.57735026918962573, 0, -1]}\n",
-                        "  - {plane: {normal: [0, 0, -1]}, material: " GLASS "}\n", 10),
-                10 * tan(outside), 1e-6, "out of glass, x");
+    assert_near(
+        arrival("camera: {eye: [-0.57735026918962573, 0, 1], direction: [0.57735026918962573, 0, -1]}\n",
+                "  - {plane: {normal: [0, 0, -1]}, material: " GLASS "}\n", 10),
+        10 * tan(outside), 1e-6, "out of glass, x");
 }
 
 /* Through a slab, from either of its sides: parallel to itself, and moved by what the angle inside says. */
@@ -465,7 +531,8 @@ static void test_ball_lens(void **state) {
         char camera[100];
         snprintf(camera, sizeof camera, "camera: {eye: [%.17g, 0, 5], direction: [0, 0, -1]}\n", h);
         const double want = sin(2 * r - i) - tan(turned) * (4 - cos(2 * r - i));
-        assert_near(arrival(camera, "  - {sphere: {}, material: " GLASS "}\n", 4), want, 1e-6, "behind the ball, x");
+        assert_near(arrival(camera, "  - {sphere: {}, material: " GLASS "}\n", 4), want, 1e-6,
+                    "behind the ball, x");
     }
 }
 
@@ -474,7 +541,8 @@ static void test_bubble(void **state) {
     (void)state;
     const double glass = asin(sqrt(0.5) / 1.5);
     const char bubble[] = "  - {box: {min: [-50, -50, -6], max: [50, 50, 0]}, material: " GLASS "}\n"
-                          "  - {box: {min: [-40, -40, -4], max: [40, 40, -2]}, material: {diffuse: black, refraction: 1, index: 1}}\n";
+                          "  - {box: {min: [-40, -40, -4], max: [40, 40, -2]}, material: {diffuse: black, "
+                          "refraction: 1, index: 1}}\n";
     assert_near(arrival(SLANTED, bubble, 10), 4 * tan(glass) + 2 + 4, 1e-6, "behind the bubble, x");
 }
 
@@ -482,10 +550,11 @@ static void test_bubble(void **state) {
 static void test_total_reflection(void **state) {
     (void)state;
     const double critical = asin(1 / 1.5) * 180 / (double)pi;
-    for (double deg = critical - 30; deg < 89; deg += deg > critical - 0.5 && deg < critical + 0.5 ? 0.02 : 3) {
+    for (double deg = critical - 30; deg<89; deg += deg> critical - 0.5 && deg < critical + 0.5 ? 0.02 : 3) {
         char text[1000];
         snprintf(text, sizeof text,
-                 "image: {size: [1, 1], samples: 1, background: blue}\ncamera: {eye: [0, 0, -1], direction: [%.17g, 0, %.17g]}\n" GLOW_LIGHT
+                 "image: {size: [1, 1], samples: 1, background: blue}\ncamera: {eye: [0, 0, -1], direction: "
+                 "[%.17g, 0, %.17g]}\n" GLOW_LIGHT
                  "scene:\n  - {plane: {}, material: {diffuse: black, refraction: 0.75, index: 1.5}}\n"
                  "  - {plane: {point: [0, 0, -3]}, material: " GLOW("red") "}\n",
                  sin(deg * (double)pi / 180), cos(deg * (double)pi / 180));
@@ -498,7 +567,9 @@ static void test_total_reflection(void **state) {
 static void test_mirrored_glass(void **state) {
     (void)state;
     const double inside = asin(sqrt(0.5) / 1.5);
-    const char slab[] = "  - {box: {min: [-50, -50, 0], max: [50, 50, 2]}, transform: {scale: [1, 1, -1]}, material: " GLASS "}\n";
+    const char slab[] =
+        "  - {box: {min: [-50, -50, 0], max: [50, 50, 2]}, transform: {scale: [1, 1, -1]}, material: " GLASS
+        "}\n";
     assert_near(arrival(SLANTED, slab, 10), 10 - 2 * (1 - tan(inside)), 1e-6, "behind the slab, x");
 }
 
@@ -522,7 +593,8 @@ int main(void) {
     };
     enum { ROWS = sizeof rows / sizeof *rows, OTHERS = sizeof others / sizeof *others };
     struct CMUnitTest tests[ROWS + OTHERS];
-    for (size_t i = 0; i < ROWS; i++) tests[i] = (struct CMUnitTest){rows[i].name, check_row, NULL, NULL, (void *)&rows[i]};
+    for (size_t i = 0; i < ROWS; i++)
+        tests[i] = (struct CMUnitTest){rows[i].name, check_row, NULL, NULL, (void *)&rows[i]};
     for (size_t i = 0; i < OTHERS; i++) tests[ROWS + i] = others[i];
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

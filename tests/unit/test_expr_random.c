@@ -7,8 +7,8 @@
 
 struct made {
     char *text;
-    int level;         /* 0 choice, 1 or, 2 and, 3 equal, 4 order, 5 sum, 6 product, 7 unary, 8 power, 9 postfix */
-    bool wrong;        /* it has no value */
+    int level;  /* 0 choice, 1 or, 2 and, 3 equal, 4 order, 5 sum, 6 product, 7 unary, 8 power, 9 postfix */
+    bool wrong; /* it has no value */
     struct quantity q; /* else this one */
 };
 
@@ -63,9 +63,13 @@ static struct made make_arithmetic(struct random *r, int depth) {
     static const int levels[] = {5, 5, 6, 6, 6, 8};
     const unsigned which = random_below(r, 6);
     const struct made a = make_tree(r, depth - 1), b = make_tree(r, depth - 1);
-    const int level = levels[which], left = symbols[which] == '^' ? 9 : level, right = symbols[which] == '^' ? 7 : level + 1;
+    const int level = levels[which], left = symbols[which] == '^' ? 9 : level,
+              right = symbols[which] == '^' ? 7 : level + 1;
     const char *x = fit(r, a, left), *space = random_below(r, 2) ? " " : "", *y = fit(r, b, right);
-    struct made m = {arena_format(&texts, "%s%s%c%s%s", x, space, symbols[which], space, y), level, a.wrong || b.wrong, {0, {0}}};
+    struct made m = {arena_format(&texts, "%s%s%c%s%s", x, space, symbols[which], space, y),
+                     level,
+                     a.wrong || b.wrong,
+                     {0, {0}}};
     if (m.wrong) return m;
     m.wrong = a.q.count != b.q.count && a.q.count != 1 && b.q.count != 1;
     m.q.count = a.q.count > b.q.count ? a.q.count : b.q.count;
@@ -82,9 +86,10 @@ static struct made make_comparison(struct random *r, int depth) {
     const int level = which < 4 ? 4 : 3;
     const struct made a = make_tree(r, depth - 1), b = make_tree(r, depth - 1);
     const double x = a.q.v[0], y = b.q.v[0];
-    const bool holds[] = {x < y, x <= y, x > y, x >= y, x == y, x != y};
+    const bool holds[] = {x<y, x <= y, x> y, x >= y, x == y, x != y};
     const char *left = fit(r, a, level + 1), *right = fit(r, b, level + 1);
-    struct made m = made_number(arena_format(&texts, "%s %s %s", left, symbols[which], right), level, holds[which]);
+    struct made m =
+        made_number(arena_format(&texts, "%s %s %s", left, symbols[which], right), level, holds[which]);
     m.wrong = a.wrong || b.wrong || a.q.count != 1 || b.q.count != 1;
     return m;
 }
@@ -95,7 +100,8 @@ static struct made make_logic(struct random *r, int depth) {
     const int level = or ? 1 : 2;
     const char *left = fit(r, a, level), *right = fit(r, b, level + 1);
     const bool enough = or ? a.q.v[0] != 0 : a.q.v[0] == 0;
-    struct made m = made_number(arena_format(&texts, "%s%s%s", left, or ? "||" : "&&", right), level, enough ? or : b.q.v[0] != 0);
+    struct made m = made_number(arena_format(&texts, "%s%s%s", left, or ? "||" : "&&", right), level,
+                                enough ? or : b.q.v[0] != 0);
     m.wrong = a.wrong || a.q.count != 1 || (!enough && (b.wrong || b.q.count != 1));
     return m;
 }
@@ -115,7 +121,7 @@ static struct made make_unary(struct random *r, int depth) {
     const bool not = random_below(r, 3) == 0;
     m.text = arena_format(&texts, "%s%s", not ? "!" : "-", fit(r, m, 7));
     m.level = 7;
-    m.wrong |= not && m.q.count != 1;
+    m.wrong |= not &&m.q.count != 1;
     for (unsigned i = 0; i < m.q.count; i++) m.q.v[i] = not ? m.q.v[i] == 0 : -m.q.v[i];
     return m;
 }
@@ -138,8 +144,10 @@ static struct made make_part(struct random *r, int depth) {
     const struct made whole = make_tree(r, depth - 1);
     const unsigned which = random_below(r, COUNT(parts));
     /* The point after a number is its own. */
-    const char *text = whole.text[0] >= '0' && whole.text[0] <= '9' ? arena_format(&texts, "(%s)", whole.text) : fit(r, whole, 9);
-    struct made m = made_number(arena_format(&texts, "%s%s", text, parts[which]), 9, whole.q.v[indices[which]]);
+    const char *text = whole.text[0] >= '0' && whole.text[0] <= '9' ? arena_format(&texts, "(%s)", whole.text)
+                                                                    : fit(r, whole, 9);
+    struct made m =
+        made_number(arena_format(&texts, "%s%s", text, parts[which]), 9, whole.q.v[indices[which]]);
     m.wrong = whole.wrong || whole.q.count == 1 || indices[which] >= whole.q.count;
     return m;
 }
@@ -151,11 +159,17 @@ static struct made make_call(struct random *r, int depth) {
     static const struct {
         const char *name;
         double (*one)(double), (*two)(double, double);
-    } functions[] = {{"abs", fabs, NULL}, {"floor", floor, NULL}, {"ceil", ceil, NULL}, {"sqrt", sqrt, NULL}, {"trunc", trunc, NULL},
-                     {"round", round, NULL}, {"min", NULL, least}, {"max", NULL, greatest}};
+    } functions[] = {{"abs", fabs, NULL},  {"floor", floor, NULL}, {"ceil", ceil, NULL},
+                     {"sqrt", sqrt, NULL}, {"trunc", trunc, NULL}, {"round", round, NULL},
+                     {"min", NULL, least}, {"max", NULL, greatest}};
     const unsigned which = random_below(r, COUNT(functions));
-    const struct made a = make_tree(r, depth - 1), b = functions[which].two ? make_tree(r, depth - 1) : made_number("", 9, 0);
-    struct made m = {arena_format(&texts, "%s(%s%s%s)", functions[which].name, a.text, functions[which].two ? ", " : "", b.text), 9, a.wrong || b.wrong, {0, {0}}};
+    const struct made a = make_tree(r, depth - 1),
+                      b = functions[which].two ? make_tree(r, depth - 1) : made_number("", 9, 0);
+    struct made m = {arena_format(&texts, "%s(%s%s%s)", functions[which].name, a.text,
+                                  functions[which].two ? ", " : "", b.text),
+                     9,
+                     a.wrong || b.wrong,
+                     {0, {0}}};
     m.wrong |= a.q.count != b.q.count && a.q.count != 1 && b.q.count != 1;
     m.q.count = a.q.count > b.q.count ? a.q.count : b.q.count;
     for (unsigned i = 0; i < m.q.count && !m.wrong; i++) {
@@ -168,9 +182,11 @@ static struct made make_call(struct random *r, int depth) {
 
 static struct made make_tree(struct random *r, int depth) {
     static struct made (*const makers[])(struct random *, int) = {
-        make_arithmetic, make_arithmetic, make_arithmetic, make_comparison, make_logic, make_choice, make_unary, make_vector, make_part, make_call,
+        make_arithmetic, make_arithmetic, make_arithmetic, make_comparison, make_logic,
+        make_choice,     make_unary,      make_vector,     make_part,       make_call,
     };
-    return depth <= 0 || random_below(r, 5) == 0 ? make_leaf(r) : makers[random_below(r, COUNT(makers))](r, depth);
+    return depth <= 0 || random_below(r, 5) == 0 ? make_leaf(r)
+                                                 : makers[random_below(r, COUNT(makers))](r, depth);
 }
 
 static void random_trees_have_their_value(void **state) {
@@ -185,11 +201,13 @@ static void random_trees_have_their_value(void **state) {
         unsigned asked = 0;
         if (size > 4000) continue;
         const enum expr_result result = parse_and_evaluate(&texts, m.text, size, &asked, &got, &error);
-        if ((result == EXPR_OK) == m.wrong) fail_msg("%s: %s", m.text, m.wrong ? "should be wrong" : error.message);
+        if ((result == EXPR_OK) == m.wrong)
+            fail_msg("%s: %s", m.text, m.wrong ? "should be wrong" : error.message);
         if (m.wrong && strcmp(error.code, "bad-expression") == 0) fail_msg("%s: %s", m.text, error.message);
         if (!m.wrong) assert_int_equal(got.count, m.q.count);
         for (unsigned k = 0; k < got.count; k++)
-            if (got.v[k] != m.q.v[k]) fail_msg("%s: part %u: got %.17g, want %.17g", m.text, k, got.v[k], m.q.v[k]);
+            if (got.v[k] != m.q.v[k])
+                fail_msg("%s: part %u: got %.17g, want %.17g", m.text, k, got.v[k], m.q.v[k]);
         *(m.wrong ? &wrong : &right) += size > 10;
         arena_free(&texts);
     }
@@ -202,7 +220,8 @@ static double call(const char *text) {
     struct expr_error error = {0};
     struct quantity got = {0};
     unsigned asked = 0;
-    if (parse_and_evaluate(&texts, text, strlen(text), &asked, &got, &error) != EXPR_OK) fail_msg("%s: %s", text, error.message);
+    if (parse_and_evaluate(&texts, text, strlen(text), &asked, &got, &error) != EXPR_OK)
+        fail_msg("%s: %s", text, error.message);
     arena_free(&texts);
     return got.v[0];
 }
@@ -231,7 +250,9 @@ static long double log10_long(const double *x) { return log10l(x[0]); }
 static long double pow_long(const double *x) { return powl(x[0], x[1]); }
 static long double sqrt_long(const double *x) { return sqrtl(x[0]); }
 static long double mod_long(const double *x) { return x[0] - x[1] * floorl((long double)x[0] / x[1]); }
-static long double mix_long(const double *x) { return x[0] * (1 - (long double)x[2]) + (long double)x[1] * x[2]; }
+static long double mix_long(const double *x) {
+    return x[0] * (1 - (long double)x[2]) + (long double)x[1] * x[2];
+}
 static long double step_long(const double *x) { return x[1] >= x[0]; }
 static long double smoothstep_long(const double *x) {
     const long double t = fminl(fmaxl(((long double)x[2] - x[0]) / ((long double)x[1] - x[0]), 0), 1);
@@ -246,22 +267,32 @@ static struct oracle {
     long double (*want)(const double *x);
     double tolerance; /* relative to the result, or to 1 when that is less */
 } oracles[] = {
-    {"sin", 1, -1000, 1000, sin_long, 1e-15},        {"cos", 1, -1000, 1000, cos_long, 1e-15},
-    {"tan", 1, -89, 89, tan_long, 2e-15},            {"asin", 1, -1, 1, asin_long, 1e-15},
-    {"acos", 1, -1, 1, acos_long, 1e-15},            {"atan", 1, -100, 100, atan_long, 1e-15},
-    {"atan2", 2, -10, 10, atan2_long, 1e-15},        {"exp", 1, -100, 100, exp_long, 1e-15},
-    {"log", 1, 1e-6, 1e3, log_long, 1e-15},          {"log2", 1, 1e-6, 1e3, log2_long, 1e-15},
-    {"log10", 1, 1e-6, 1e3, log10_long, 1e-15},      {"pow", 2, 0, 20, pow_long, 1e-15},
-    {"sqrt", 1, 0, 1e6, sqrt_long, 1e-15},           {"mod", 2, -20, 20, mod_long, 1e-14},
-    {"mix", 3, -20, 20, mix_long, 1e-13},            {"step", 2, -2, 2, step_long, 0},
-    {"smoothstep", 3, -20, 20, smoothstep_long, 1e-12}, {"sign", 1, -2, 2, sign_long, 0},
+    {"sin", 1, -1000, 1000, sin_long, 1e-15},
+    {"cos", 1, -1000, 1000, cos_long, 1e-15},
+    {"tan", 1, -89, 89, tan_long, 2e-15},
+    {"asin", 1, -1, 1, asin_long, 1e-15},
+    {"acos", 1, -1, 1, acos_long, 1e-15},
+    {"atan", 1, -100, 100, atan_long, 1e-15},
+    {"atan2", 2, -10, 10, atan2_long, 1e-15},
+    {"exp", 1, -100, 100, exp_long, 1e-15},
+    {"log", 1, 1e-6, 1e3, log_long, 1e-15},
+    {"log2", 1, 1e-6, 1e3, log2_long, 1e-15},
+    {"log10", 1, 1e-6, 1e3, log10_long, 1e-15},
+    {"pow", 2, 0, 20, pow_long, 1e-15},
+    {"sqrt", 1, 0, 1e6, sqrt_long, 1e-15},
+    {"mod", 2, -20, 20, mod_long, 1e-14},
+    {"mix", 3, -20, 20, mix_long, 1e-13},
+    {"step", 2, -2, 2, step_long, 0},
+    {"smoothstep", 3, -20, 20, smoothstep_long, 1e-12},
+    {"sign", 1, -2, 2, sign_long, 0},
 };
 
 static void check_oracle(void **state) {
     const struct oracle *o = *state;
     struct random r = random_begin();
     for (int i = 0; i < 3000; i++) {
-        const double x[3] = {random_between(&r, o->low, o->high), random_between(&r, o->low, o->high), random_between(&r, o->low, o->high)};
+        const double x[3] = {random_between(&r, o->low, o->high), random_between(&r, o->low, o->high),
+                             random_between(&r, o->low, o->high)};
         const double got = call_at(o->name, o->count, x), want = (double)o->want(x);
         assert_near(got, want, o->tolerance * (fabs(want) > 1 ? fabs(want) : 1), o->name);
     }
@@ -273,7 +304,10 @@ static void angles_of_sines_lead_back(void **state) {
     for (int i = 0; i < 1000; i++) {
         char text[300];
         const double x = (double)random_below(&r, 100000) / 8;
-        sprintf(text, "sin(%.17g) == sin(%.17g + 360) && cos(%.17g) == cos(%.17g - 720) && sin(%.17g) == cos(%.17g - 90)", x, x, x, x, x, x);
+        sprintf(text,
+                "sin(%.17g) == sin(%.17g + 360) && cos(%.17g) == cos(%.17g - 720) && sin(%.17g) == cos(%.17g "
+                "- 90)",
+                x, x, x, x, x, x);
         if (call(text) != 1) fail_msg("%s", text);
         sprintf(text, "sin(%.17g) ^ 2 + cos(%.17g) ^ 2", x, x);
         assert_near(call(text), 1, 4e-16, text);
@@ -287,8 +321,14 @@ static void a_hue_is_what_the_web_says(void **state) {
     /* CSS names of known hues, in the words of its hsl() turned to hsv. */
     static const struct {
         const char *color, *same;
-    } rows[] = {{"hsv(39 - 9 / 255, 0, 1)", "white"}, {"hsv(0, 1, 128 / 255)", "maroon"}, {"hsv(300, 1, 1)", "magenta"}, {"hsv(180, 1, 1)", "cyan"},
-                {"hsv(60, 1, 128 / 255)", "olive"}, {"hsv(720 + 240, 1, 128 / 255)", "navy"}, {"rgb(255, 99, 71)", "tomato"}, {"rgb(70, 130, 180)", "steelblue"},
+    } rows[] = {{"hsv(39 - 9 / 255, 0, 1)", "white"},
+                {"hsv(0, 1, 128 / 255)", "maroon"},
+                {"hsv(300, 1, 1)", "magenta"},
+                {"hsv(180, 1, 1)", "cyan"},
+                {"hsv(60, 1, 128 / 255)", "olive"},
+                {"hsv(720 + 240, 1, 128 / 255)", "navy"},
+                {"rgb(255, 99, 71)", "tomato"},
+                {"rgb(70, 130, 180)", "steelblue"},
                 {"hsv(60 * 28 / 184, 184 / 255, 1)", "tomato"}};
     for (size_t i = 0; i < COUNT(rows); i++) {
         char text[200];
@@ -316,7 +356,9 @@ static void random_numbers_are_even(void **state) {
         chi += (boxes[i] - (double)EACH) * (boxes[i] - (double)EACH) / EACH;
         chi_pairs += (pairs[i] - (double)EACH) * (pairs[i] - (double)EACH) / EACH;
     }
-    if (chi > 45 || chi_pairs > 45) fail_msg("chi squares %g and %g, of 19 degrees of freedom", chi, chi_pairs); /* one in 1000 has 43.8 */
+    if (chi > 45 || chi_pairs > 45)
+        fail_msg("chi squares %g and %g, of 19 degrees of freedom", chi,
+                 chi_pairs); /* one in 1000 has 43.8 */
 }
 
 static void random_is_the_same_everywhere(void **state) {
@@ -334,7 +376,9 @@ static void noise_is_smooth_and_fills_its_range(void **state) {
         for (int i = 0; i < TIMES; i++) {
             double at[3];
             for (unsigned k = 0; k < 3; k++) at[k] = random_between(&r, -50, 50);
-            if (i % 2) at[random_below(&r, dimensions)] = floor(at[0]); /* on a face of cells, where slips would show */
+            if (i % 2)
+                at[random_below(&r, dimensions)] =
+                    floor(at[0]); /* on a face of cells, where slips would show */
             const double here = call_at("noise", dimensions, at);
             assert_true(fabs(here) <= 1);
             least_seen = fmin(least_seen, here);
@@ -347,7 +391,8 @@ static void noise_is_smooth_and_fills_its_range(void **state) {
             for (unsigned k = 0; k < 3; k++) at[k] = floor(at[k]);
             assert_true(call_at("noise", dimensions, at) == 0);
         }
-        if (least_seen > -0.6 || most_seen < 0.6 || squares / TIMES < 0.04) fail_msg("%u: %g to %g, variance %g", dimensions, least_seen, most_seen, squares / TIMES);
+        if (least_seen > -0.6 || most_seen < 0.6 || squares / TIMES < 0.04)
+            fail_msg("%u: %g to %g, variance %g", dimensions, least_seen, most_seen, squares / TIMES);
     }
 }
 
@@ -370,7 +415,8 @@ static void slopes_of_noise_point_everywhere(void **state) {
             }
             const double deviation = sqrt(mean_square[dimensions] / TIMES);
             assert_near(sum / TIMES, 0, 4 * deviation, "mean slope");
-            assert_near(squares / TIMES, mean_square[dimensions], 0.08 * mean_square[dimensions], "mean square of slopes");
+            assert_near(squares / TIMES, mean_square[dimensions], 0.08 * mean_square[dimensions],
+                        "mean square of slopes");
         }
 }
 
@@ -382,7 +428,8 @@ static void noise_goes_far_out(void **state) {
 
 int main(void) {
     struct CMUnitTest tests[COUNT(oracles)];
-    for (size_t i = 0; i < COUNT(oracles); i++) tests[i] = (struct CMUnitTest){oracles[i].name, check_oracle, NULL, NULL, &oracles[i]};
+    for (size_t i = 0; i < COUNT(oracles); i++)
+        tests[i] = (struct CMUnitTest){oracles[i].name, check_oracle, NULL, NULL, &oracles[i]};
     const struct CMUnitTest others[] = {
         cmocka_unit_test(random_trees_have_their_value),
         cmocka_unit_test(angles_of_sines_lead_back),
@@ -393,5 +440,6 @@ int main(void) {
         cmocka_unit_test(slopes_of_noise_point_everywhere),
         cmocka_unit_test(noise_goes_far_out),
     };
-    return cmocka_run_group_tests_name("oracles", tests, NULL, NULL) + cmocka_run_group_tests_name("random", others, NULL, NULL);
+    return cmocka_run_group_tests_name("oracles", tests, NULL, NULL) +
+           cmocka_run_group_tests_name("random", others, NULL, NULL);
 }

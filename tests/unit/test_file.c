@@ -37,7 +37,10 @@ static struct row {
 } rows[] = {
     {"a text", "abc\n", "abc\n", 4, 100, NULL},
     {"an empty file", "", "", 0, 100, NULL},
-    {"a byte order mark", "\xef\xbb\xbf" "abc", "abc", 6, 100, NULL},
+    {"a byte order mark",
+     "\xef\xbb\xbf"
+     "abc",
+     "abc", 6, 100, NULL},
     {"nothing but a byte order mark", "\xef\xbb\xbf", "", 3, 100, NULL},
     {"half a byte order mark", "\xef\xbb", "\xef\xbb", 2, 100, NULL},
     {"zero bytes", "a\0b", "a\0b", 3, 100, NULL},
@@ -45,7 +48,8 @@ static struct row {
     {"longer than the limit", "abcd\n", "", 5, 4, "f: longer than 4 bytes (the limit `file_bytes`)"},
 };
 
-static void check_source(const struct source *source, const struct diagnostics *diag, const struct row *row, const char *name) {
+static void check_source(const struct source *source, const struct diagnostics *diag, const struct row *row,
+                         const char *name) {
     if (row->failure) {
         assert_null(source);
         assert_int_equal(diag->failures, 1);
@@ -134,8 +138,10 @@ static void check_failure(void **state) {
 int main(void) {
     struct CMUnitTest tests[COUNT(rows) + COUNT(failures) + 1];
     size_t n = 0;
-    for (size_t i = 0; i < COUNT(rows); i++) tests[n++] = (struct CMUnitTest){rows[i].name, check_row, NULL, NULL, &rows[i]};
-    for (size_t i = 0; i < COUNT(failures); i++) tests[n++] = (struct CMUnitTest){failures[i].want, check_failure, NULL, NULL, &failures[i]};
+    for (size_t i = 0; i < COUNT(rows); i++)
+        tests[n++] = (struct CMUnitTest){rows[i].name, check_row, NULL, NULL, &rows[i]};
+    for (size_t i = 0; i < COUNT(failures); i++)
+        tests[n++] = (struct CMUnitTest){failures[i].want, check_failure, NULL, NULL, &failures[i]};
     tests[n++] = (struct CMUnitTest)cmocka_unit_test(standard_input_in_many_pieces);
     return cmocka_run_group_tests_name("file", tests, enter_folder, leave_folder);
 }

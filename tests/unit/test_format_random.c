@@ -73,7 +73,6 @@ static void between_lines(int column) {
 
 /* ---- Values in lines ---- */
 
-
 static void plain(void) {
     static const char *const words[] = {"1",
                                         "-0.5",

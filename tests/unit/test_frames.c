@@ -19,24 +19,36 @@ struct row {
 };
 
 static const struct row rows[] = {
-    {"the camera moves", HEAD "camera: {eye: [2 + t, 1, 4], look_at: [0, 0, 0]}\nscene: [{sphere: {}}]\n", true},
-    {"the lights move", HEAD "lights: [{point: {at: [4 * t, 3, 3]}}]\nscene: [{sphere: {}}, {box: {}}]\n", true},
-    {"the background moves", "animation: {frames: 5}\nimage: {size: [24, 16], background: [t, 0, 0]}\nscene: [{sphere: {}}]\n", true},
-    {"by a parameter", HEAD "params: {far: 4 + t}\ncamera: {eye: [0, 1, far]}\nscene: [{sphere: {}}]\n", true},
-    {"a material moves", HEAD "materials: {m: {diffuse: [t, 1, 0]}}\nscene: [{sphere: {}, material: m}]\n", true},
-    {"a material becomes clear", HEAD "scene: [{sphere: {}, material: {refraction: 'frame == 1 || frame % 2 == 0 ? 0.3 : 0'}}, {box: {}}]\n", false},
+    {"the camera moves", HEAD "camera: {eye: [2 + t, 1, 4], look_at: [0, 0, 0]}\nscene: [{sphere: {}}]\n",
+     true},
+    {"the lights move", HEAD "lights: [{point: {at: [4 * t, 3, 3]}}]\nscene: [{sphere: {}}, {box: {}}]\n",
+     true},
+    {"the background moves",
+     "animation: {frames: 5}\nimage: {size: [24, 16], background: [t, 0, 0]}\nscene: [{sphere: {}}]\n", true},
+    {"by a parameter", HEAD "params: {far: 4 + t}\ncamera: {eye: [0, 1, far]}\nscene: [{sphere: {}}]\n",
+     true},
+    {"a material moves", HEAD "materials: {m: {diffuse: [t, 1, 0]}}\nscene: [{sphere: {}, material: m}]\n",
+     true},
+    {"a material becomes clear",
+     HEAD
+     "scene: [{sphere: {}, material: {refraction: 'frame == 1 || frame % 2 == 0 ? 0.3 : 0'}}, {box: {}}]\n",
+     false},
     {"a sphere moves", HEAD "scene: [{sphere: {center: [t, 0, 0]}}]\n", false},
     {"a quadric moves", HEAD "scene: [{cone: {radius: 1 + t}}]\n", false},
     {"it is sheared", HEAD "scene: [{cylinder: {}, transform: [{shear: {xy: t}}]}]\n", false},
     {"a flat moves", HEAD "scene: [{square: {}, transform: [{rotate: {y: 90 * t}}]}]\n", false},
-    {"one more of them", HEAD "scene: [{sphere: {center: [i, 0, 0], radius: 0.4}, for: {i: {from: 1, to: frame}}}]\n", false},
-    {"keyframes", HEAD "scene: [{box: {}, transform: [{translate: {keys: {1: [0, 0, 0], 5: [1, 0, 0]}}}]}]\n", false},
+    {"one more of them",
+     HEAD "scene: [{sphere: {center: [i, 0, 0], radius: 0.4}, for: {i: {from: 1, to: frame}}}]\n", false},
+    {"keyframes", HEAD "scene: [{box: {}, transform: [{translate: {keys: {1: [0, 0, 0], 5: [1, 0, 0]}}}]}]\n",
+     false},
     {"an instance moves",
-     HEAD "define: {row: {objects: [{sphere: {center: [i, 0, 0], radius: 0.4}, for: {i: {from: 1, to: 20}}}]}}\n"
-          "scene: [{use: row}, {use: row, transform: [{translate: [0, t, 0]}]}]\n",
+     HEAD
+     "define: {row: {objects: [{sphere: {center: [i, 0, 0], radius: 0.4}, for: {i: {from: 1, to: 20}}}]}}\n"
+     "scene: [{use: row}, {use: row, transform: [{translate: [0, t, 0]}]}]\n",
      false},
     {"a geometry moves",
-     HEAD "define: {row: {objects: [{sphere: {center: [i, 0, 0], radius: 0.4 + 0.1 * t}, for: {i: {from: 1, to: 20}}}]}}\n"
+     HEAD "define: {row: {objects: [{sphere: {center: [i, 0, 0], radius: 0.4 + 0.1 * t}, for: {i: {from: 1, "
+          "to: 20}}}]}}\n"
           "scene: [{use: row}, {use: row, transform: [{translate: [0, 2, 0]}]}]\n",
      false},
 };
@@ -65,10 +77,12 @@ static struct monge_film *render(struct monge_scene *scene, bool *kept) {
 
 static void assert_same(const struct monge_film *a, const struct monge_film *b) {
     const struct monge_region region = monge_film_region(a);
-    assert_memory_equal(monge_film_pixels(a), monge_film_pixels(b), 3u * region.width * region.height * sizeof(float));
+    assert_memory_equal(monge_film_pixels(a), monge_film_pixels(b),
+                        3u * region.width * region.height * sizeof(float));
 }
 
-static void check_frame(struct monge_scene *scene, const struct row *row, unsigned frame, struct monge_diagnostics *diag) {
+static void check_frame(struct monge_scene *scene, const struct row *row, unsigned frame,
+                        struct monge_diagnostics *diag) {
     bool kept, ignored;
     struct monge_film *film = render(scene, &kept);
     struct monge_scene *other = load(row->text, frame, diag);
@@ -120,7 +134,8 @@ static void stays_where_it_was(void **state) {
 }
 
 /* What `print` writes, to be freed. */
-static char *printed(struct monge_diagnostics *diag, void (*print)(struct monge_diagnostics *diag, FILE *out)) {
+static char *printed(struct monge_diagnostics *diag,
+                     void (*print)(struct monge_diagnostics *diag, FILE *out)) {
     char *text = NULL;
     size_t size;
     FILE *out = open_memstream(&text, &size);
@@ -134,7 +149,8 @@ static void print_all(struct monge_diagnostics *diag, FILE *out) { monge_diagnos
 static void a_warning_is_told_once(void **state) {
     (void)state;
     struct monge_diagnostics *diag = monge_diagnostics_new();
-    struct monge_scene *scene = load(HEAD "materials: {unused: {}}\nscene: [{sphere: {radius: 1 + t}}]\n", 0, diag);
+    struct monge_scene *scene =
+        load(HEAD "materials: {unused: {}}\nscene: [{sphere: {radius: 1 + t}}]\n", 0, diag);
     char *first = printed(diag, monge_diagnostics_print_new);
     assert_non_null(strstr(first, "unused-definition"));
     assert_true(monge_scene_set_frame(scene, 2, diag));
@@ -155,7 +171,8 @@ int main(void) {
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
         tests[count++] = (struct CMUnitTest){rows[i].name, check_row, NULL, NULL, (void *)&rows[i]};
     for (size_t i = 0; i < sizeof breaking / sizeof *breaking; i++)
-        tests[count++] = (struct CMUnitTest){"stays where it was", stays_where_it_was, NULL, NULL, (void *)breaking[i]};
+        tests[count++] =
+            (struct CMUnitTest){"stays where it was", stays_where_it_was, NULL, NULL, (void *)breaking[i]};
     tests[count++] = (struct CMUnitTest)cmocka_unit_test(a_warning_is_told_once);
     return _cmocka_run_group_tests("frames", tests, count, NULL, NULL);
 }

@@ -63,7 +63,10 @@ static void both_zeros_are_one_value(void **state) {
 
 int main(void) {
     struct CMUnitTest tests[COUNT(vectors)];
-    for (size_t i = 0; i < COUNT(vectors); i++) tests[i] = (struct CMUnitTest){vectors[i].name, check_vector, NULL, NULL, &vectors[i]};
-    const struct CMUnitTest others[] = {cmocka_unit_test(numbers_go_in_as_bytes_least_first), cmocka_unit_test(both_zeros_are_one_value)};
-    return cmocka_run_group_tests_name("vectors", tests, NULL, NULL) + cmocka_run_group_tests_name("hash", others, NULL, NULL);
+    for (size_t i = 0; i < COUNT(vectors); i++)
+        tests[i] = (struct CMUnitTest){vectors[i].name, check_vector, NULL, NULL, &vectors[i]};
+    const struct CMUnitTest others[] = {cmocka_unit_test(numbers_go_in_as_bytes_least_first),
+                                        cmocka_unit_test(both_zeros_are_one_value)};
+    return cmocka_run_group_tests_name("vectors", tests, NULL, NULL) +
+           cmocka_run_group_tests_name("hash", others, NULL, NULL);
 }

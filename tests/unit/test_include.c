@@ -46,15 +46,19 @@ static void place_in_folder(struct lang_input *input, const void *context) {
     input->untrusted = folder->untrusted != NULL;
 }
 
-static void read_in(struct reading *r, const struct folder *folder, const char *text) { read_with(r, text, place_in_folder, folder); }
+static void read_in(struct reading *r, const struct folder *folder, const char *text) {
+    read_with(r, text, place_in_folder, folder);
+}
 
 static void paths_are_relative_to_the_file_that_names_them(void **state) {
     const struct folder *folder = *state;
     struct reading r;
-    const char *text = "include: [parts/one.yaml, ../outer.yaml]\nscene: [{sphere: {radius: a}}, {sphere: {radius: b}}, {use: u}]";
+    const char *text = "include: [parts/one.yaml, ../outer.yaml]\nscene: [{sphere: {radius: a}}, {sphere: "
+                       "{radius: b}}, {use: u}]";
     write_file(folder, "scenes/parts/one.yaml", "include: two.yaml\nparams: {a: b + 1}\n");
     write_file(folder, "scenes/parts/two.yaml", "params: {b: 2}\n");
-    write_file(folder, "outer.yaml", "define: {u: {objects: [{box: {}, material: wet}]}}\nmaterials: {wet: {shininess: 3}}\n");
+    write_file(folder, "outer.yaml",
+               "define: {u: {objects: [{box: {}, material: wet}]}}\nmaterials: {wet: {shininess: 3}}\n");
     read_in(&r, folder, text);
     assert_read(&r, text, "sphere{radius:3} sphere{radius:2} use( material:wet box{} )");
     reading_free(&r);
@@ -74,7 +78,8 @@ static void a_path_may_begin_with_a_slash(void **state) {
 static void the_same_file_is_read_once(void **state) {
     const struct folder *folder = *state;
     struct reading r;
-    const char *text = "include: [left.yaml, right.yaml, base.yaml, parts/../base.yaml]\nscene: [{sphere: {radius: l + r}}]";
+    const char *text =
+        "include: [left.yaml, right.yaml, base.yaml, parts/../base.yaml]\nscene: [{sphere: {radius: l + r}}]";
     write_file(folder, "scenes/base.yaml", "params: {b: 2}\n");
     write_file(folder, "scenes/left.yaml", "include: base.yaml\nparams: {l: b}\n");
     write_file(folder, "scenes/right.yaml", "include: [base.yaml]\nparams: {r: b * 2}\n");
@@ -97,7 +102,9 @@ static void the_scene_of_an_included_file_is_not_placed(void **state) {
     const struct folder *folder = *state;
     struct reading r;
     const char *text = "include: base.yaml\nscene: [{sphere: {radius: b}}]\n";
-    write_file(folder, "scenes/base.yaml", "params: {b: 2}\nscene: [{box: {}}, {sphere: {radius: 1 / (b - 2)}}]\nanimation: {frames: 3}\nimage: {samples: 3}\n");
+    write_file(folder, "scenes/base.yaml",
+               "params: {b: 2}\nscene: [{box: {}}, {sphere: {radius: 1 / (b - 2)}}]\nanimation: {frames: "
+               "3}\nimage: {samples: 3}\n");
     read_in(&r, folder, text);
     assert_read(&r, text, "sphere{radius:2}");
     assert_int_equal(r.result.frames, 0);
@@ -108,7 +115,8 @@ static void the_scene_of_an_included_file_is_not_placed(void **state) {
 static void what_an_included_file_does_not_use_is_no_warning(void **state) {
     const struct folder *folder = *state;
     struct reading r;
-    write_file(folder, "scenes/base.yaml", "params: {b: 2, c: 3}\nmaterials: {wet: {}}\ndefine: {u: {objects: []}}\n");
+    write_file(folder, "scenes/base.yaml",
+               "params: {b: 2, c: 3}\nmaterials: {wet: {}}\ndefine: {u: {objects: []}}\n");
     read_in(&r, folder, "include: base.yaml\nscene: [{sphere: {radius: b}}]\n");
     assert_int_equal(r.diag.errors + r.diag.warnings, 0);
     reading_free(&r);
@@ -122,7 +130,8 @@ static void a_define_sets_an_included_parameter(void **state) {
     const struct lang_sink sink = collecting_sink(&objects);
     const struct lang_define define = {"b", "7"};
     write_file(folder, "scenes/base.yaml", "params: {b: 2}\n");
-    struct lang_input input = loading_input(&memory, "include: base.yaml\nscene: [{sphere: {radius: b}}]\n", &sink);
+    struct lang_input input =
+        loading_input(&memory, "include: base.yaml\nscene: [{sphere: {radius: b}}]\n", &sink);
     place_in_folder(&input, folder);
     input.defines = &define;
     input.define_count = 1;
@@ -145,8 +154,10 @@ static void untrusted_scenes_stay_in_their_folder(void **state) {
     snprintf(link, sizeof link, "%s/scenes/link.yaml", folder.path);
     assert_int_equal(symlink(outside, link), 0);
     snprintf(absolute, sizeof absolute, "include: %s\nscene: [{sphere: {radius: b}}]", outside);
-    const char *const wrong[] = {"include: ../outer.yaml\nscene: [{sphere: {}}]", "include: parts/../../outer.yaml\nscene: [{sphere: {}}]",
-                                 "include: link.yaml\nscene: [{sphere: {}}]", "include: /etc/passwd\nscene: [{sphere: {}}]", absolute};
+    const char *const wrong[] = {"include: ../outer.yaml\nscene: [{sphere: {}}]",
+                                 "include: parts/../../outer.yaml\nscene: [{sphere: {}}]",
+                                 "include: link.yaml\nscene: [{sphere: {}}]",
+                                 "include: /etc/passwd\nscene: [{sphere: {}}]", absolute};
     for (size_t i = 0; i < COUNT(wrong); i++) {
         read_in(&r, &folder, wrong[i]);
         assert_error(&r, "include-outside", "is not in the folder of the scene");

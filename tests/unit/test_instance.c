@@ -3,11 +3,11 @@
 #include <string.h>
 
 #include "accel/bvh.h"
+#include "loading.h"
 #include "near.h"
 #include "render/media.h"
 #include "render/render.h"
 #include "scene/builder.h"
-#include "loading.h"
 #include "shape_forms.h"
 
 /* ---- Scenes, made in code ---- */
@@ -18,8 +18,16 @@ enum { CLAY, GLASS, MIRROR, WATER, MATERIALS };
 static const bool clear[MATERIALS] = {[GLASS] = true, [WATER] = true};
 
 static struct material materials[MATERIALS] = {
-    [CLAY] = {.ambient = {0.1, 0.1, 0.1}, .diffuse = {0.7, 0.5, 0.3}, .specular = {0.3, 0.3, 0.3}, .shininess = 20, .index = 1},
-    [GLASS] = {.reflection = {0.1, 0.1, 0.1}, .refraction = {0.8, 0.85, 0.8}, .specular = {0.5, 0.5, 0.5}, .shininess = 90, .index = 1.5},
+    [CLAY] = {.ambient = {0.1, 0.1, 0.1},
+              .diffuse = {0.7, 0.5, 0.3},
+              .specular = {0.3, 0.3, 0.3},
+              .shininess = 20,
+              .index = 1},
+    [GLASS] = {.reflection = {0.1, 0.1, 0.1},
+               .refraction = {0.8, 0.85, 0.8},
+               .specular = {0.5, 0.5, 0.5},
+               .shininess = 90,
+               .index = 1.5},
     [MIRROR] = {.diffuse = {0.1, 0.1, 0.2}, .reflection = {0.7, 0.7, 0.7}, .index = 1},
     [WATER] = {.diffuse = {0, 0, 0.1}, .refraction = {0.6, 0.7, 0.9}, .index = 1.33},
 };
@@ -37,9 +45,11 @@ static void set_begin(struct arena *arena, struct primitives *p, uint32_t room) 
     p->instance_number = arena_array(arena, room, sizeof(uint32_t));
 }
 
-static void add_info(struct primitives *p, enum primitive_kind kind, uint32_t index, uint32_t *numbers, uint32_t material) {
+static void add_info(struct primitives *p, enum primitive_kind kind, uint32_t index, uint32_t *numbers,
+                     uint32_t material) {
     numbers[index] = p->count;
-    p->info[p->count++] = (struct primitive_info){.ref = primitive_ref_make(kind, index), .material = material};
+    p->info[p->count++] =
+        (struct primitive_info){.ref = primitive_ref_make(kind, index), .material = material};
 }
 
 static void add_sphere(struct primitives *p, vec3 center, double radius, uint32_t material) {
@@ -54,7 +64,8 @@ static void add_flat(struct primitives *p, enum flat_outline outline, affine map
     add_info(p, PRIMITIVE_FLAT, p->flat_count++, p->flat_number, material);
 }
 
-static void add_quadric(struct primitives *p, const struct quadric_form *form, affine map, uint32_t material) {
+static void add_quadric(struct primitives *p, const struct quadric_form *form, affine map,
+                        uint32_t material) {
     struct quadric quadric = {.world_from_object = map, .form = form};
     assert_true(affine_invert(map, &quadric.object_from_world));
     p->quadrics[p->quadric_count] = quadric;
@@ -108,23 +119,30 @@ static struct primitives *add_geometry(struct pair *s, uint32_t room) {
 }
 
 /* A sphere that a map leaves round stays a sphere. */
-static void carry_out_shape(struct primitives *to, const struct primitives *from, primitive_ref ref, const affine *map, uint32_t material) {
+static void carry_out_shape(struct primitives *to, const struct primitives *from, primitive_ref ref,
+                            const affine *map, uint32_t material) {
     const uint32_t index = primitive_ref_index(ref);
     double factor;
     if (primitive_ref_kind(ref) == PRIMITIVE_SPHERE) {
         const struct sphere *sphere = &from->spheres[index];
-        const affine place = affine_compose(affine_translate(sphere->center), affine_scale(vec3_all(sphere->radius)));
-        if (affine_is_similarity(*map, &factor)) add_sphere(to, affine_point(map, sphere->center), factor * sphere->radius, material);
-        else add_quadric(to, &forms[ELLIPSOID], affine_compose(*map, place), material);
+        const affine place =
+            affine_compose(affine_translate(sphere->center), affine_scale(vec3_all(sphere->radius)));
+        if (affine_is_similarity(*map, &factor))
+            add_sphere(to, affine_point(map, sphere->center), factor * sphere->radius, material);
+        else
+            add_quadric(to, &forms[ELLIPSOID], affine_compose(*map, place), material);
     } else if (primitive_ref_kind(ref) == PRIMITIVE_FLAT) {
-        add_flat(to, from->flats[index].outline, affine_compose(*map, from->flats[index].world_from_object), material);
+        add_flat(to, from->flats[index].outline, affine_compose(*map, from->flats[index].world_from_object),
+                 material);
     } else {
-        add_quadric(to, from->quadrics[index].form, affine_compose(*map, from->quadrics[index].world_from_object), material);
+        add_quadric(to, from->quadrics[index].form,
+                    affine_compose(*map, from->quadrics[index].world_from_object), material);
     }
 }
 
 /* Numbers rise as occurrences do. */
-static void carry_out(struct pair *s, const struct primitives *from, affine map, uint32_t inherited, struct occurrence which) {
+static void carry_out(struct pair *s, const struct primitives *from, affine map, uint32_t inherited,
+                      struct occurrence which) {
     for (uint32_t i = 0; i < from->count; i++) {
         const struct primitive_info *info = &from->info[i];
         which.number[which.depth] = i;
@@ -137,7 +155,8 @@ static void carry_out(struct pair *s, const struct primitives *from, affine map,
         } else {
             assert_true(s->flat.primitives.count < ROOM);
             s->which[s->flat.primitives.count] = which;
-            carry_out_shape(&s->flat.primitives, from, info->ref, &map, info->material == MATERIAL_INHERITED ? inherited : info->material);
+            carry_out_shape(&s->flat.primitives, from, info->ref, &map,
+                            info->material == MATERIAL_INHERITED ? inherited : info->material);
         }
     }
 }
@@ -145,7 +164,8 @@ static void carry_out(struct pair *s, const struct primitives *from, affine map,
 static void pair_build(struct pair *s) {
     const struct occurrence top = {0};
     carry_out(s, &s->instanced.primitives, AFFINE_IDENTITY, MATERIAL_INHERITED, top);
-    s->accel = accel_build(&s->arena, &s->instanced.primitives, s->geometries, s->instanced.geometry_count, clear);
+    s->accel =
+        accel_build(&s->arena, &s->instanced.primitives, s->geometries, s->instanced.geometry_count, clear);
     s->flat_accel = accel_build(&s->arena, &s->flat.primitives, NULL, 0, clear);
 }
 
@@ -155,8 +175,10 @@ static affine random_map(struct random *r, double size) {
     const affine turn = affine_rotate(random_vec3(r, 0.1, 1), random_between(r, 0, 360));
     const vec3 by = random_vec3(r, 0.5, 1.2);
     affine map = affine_scale(random_below(r, 2) ? by : (vec3){by.x, -by.y, by.z});
-    if (random_below(r, 3) == 0) map = affine_scale(vec3_all(random_between(r, 0.4, 1.1)));
-    else if (random_below(r, 3) == 0) map.m[0][1] = random_between(r, -1, 1); /* sheared */
+    if (random_below(r, 3) == 0)
+        map = affine_scale(vec3_all(random_between(r, 0.4, 1.1)));
+    else if (random_below(r, 3) == 0)
+        map.m[0][1] = random_between(r, -1, 1); /* sheared */
     return affine_compose(affine_translate(random_vec3(r, -size, size)), affine_compose(turn, map));
 }
 
@@ -184,10 +206,12 @@ static struct pair *random_pair(struct random *r, double size) {
     add_shapes(r, add_geometry(s, 50), 4, 2, true);
     add_geometry(s, 1);
     struct primitives *middle = add_geometry(s, 50);
-    for (int i = 0; i < 4; i++) add_instance(middle, random_below(r, 2), random_map(r, 4), random_material(r, true));
+    for (int i = 0; i < 4; i++)
+        add_instance(middle, random_below(r, 2), random_map(r, 4), random_material(r, true));
     add_shapes(r, middle, 2, 4, true);
     struct primitives *outer = add_geometry(s, 50);
-    for (int i = 0; i < 3; i++) add_instance(outer, 2 * random_below(r, 2), random_map(r, 8), random_material(r, true));
+    for (int i = 0; i < 3; i++)
+        add_instance(outer, 2 * random_below(r, 2), random_map(r, 8), random_material(r, true));
     add_shapes(r, outer, 2, 8, true);
     struct primitives *plane = add_geometry(s, 50);
     add_flat(plane, FLAT_PLANE, random_map(r, 1), MATERIAL_INHERITED);
@@ -195,7 +219,9 @@ static struct pair *random_pair(struct random *r, double size) {
     static const uint32_t placed[] = {0, 2, 3, 3, 0, 4};
     struct primitives *top = &s->instanced.primitives;
     for (uint32_t i = 0; i < COUNT(placed); i++)
-        add_instance(top, placed[i], affine_compose(affine_scale(vec3_all(size)), random_map(r, i < 5 ? 12 : 60)), random_material(r, false));
+        add_instance(top, placed[i],
+                     affine_compose(affine_scale(vec3_all(size)), random_map(r, i < 5 ? 12 : 60)),
+                     random_material(r, false));
     add_sphere(top, vec3_scale(random_vec3(r, -12, 12), size), 2 * size, CLAY);
     pair_build(s);
     return s;
@@ -206,7 +232,8 @@ static ray random_ray(struct random *r, const struct pair *s, double size) {
     const struct primitives *flat = &s->flat.primitives;
     const box3 box = shape_bounds(flat, flat->info[random_below(r, flat->count)].ref);
     const vec3 middle = box3_is_bounded(box) ? box3_center(box) : (vec3){0, 0, 0};
-    const vec3 to = vec3_madd(middle, size, random_vec3(r, -0.7, 0.7)), from = vec3_scale(random_vec3(r, -40, 40), size);
+    const vec3 to = vec3_madd(middle, size, random_vec3(r, -0.7, 0.7)),
+               from = vec3_scale(random_vec3(r, -40, 40), size);
     return (ray){from, vec3_scale(vec3_sub(to, from), random_between(r, 0.3, 2))};
 }
 
@@ -219,7 +246,8 @@ struct oracle {
     struct occurrence which;
 };
 
-static void oracle_search(struct oracle *o, const struct primitives *p, ray r, double t_min, struct occurrence which) {
+static void oracle_search(struct oracle *o, const struct primitives *p, ray r, double t_min,
+                          struct occurrence which) {
     for (uint32_t i = 0; i < p->count; i++) {
         const primitive_ref ref = p->info[i].ref;
         struct crossing c;
@@ -228,7 +256,8 @@ static void oracle_search(struct oracle *o, const struct primitives *p, ray r, d
             const struct instance *instance = &p->instances[primitive_ref_index(ref)];
             struct occurrence inner = which;
             inner.depth++;
-            oracle_search(o, &o->s->geometries[instance->geometry], affine_ray(&instance->object_from_world, r), t_min, inner);
+            oracle_search(o, &o->s->geometries[instance->geometry],
+                          affine_ray(&instance->object_from_world, r), t_min, inner);
         } else if (shape_first_crossing(p, ref, r, t_min, INFINITY, &c) && (!o->found || c.t < o->t)) {
             o->found = true;
             o->t = c.t;
@@ -245,7 +274,8 @@ static bool check_oracle(const struct pair *s, ray r, double t_min, struct hit *
     assert_int_equal(found, o.found);
     if (!found) return false;
     if (hit->crossing.t != o.t || !occurrence_equal(&hit->which, &o.which))
-        fail_msg("ray %a %a %a, %a %a %a: found at %a, not at %a", r.org.x, r.org.y, r.org.z, r.dir.x, r.dir.y, r.dir.z, hit->crossing.t, o.t);
+        fail_msg("ray %a %a %a, %a %a %a: found at %a, not at %a", r.org.x, r.org.y, r.org.z, r.dir.x,
+                 r.dir.y, r.dir.z, hit->crossing.t, o.t);
     return true;
 }
 
@@ -299,12 +329,14 @@ static void assert_same_surface(const struct surface *got, const struct surface 
     if (!(got->error > 0.0 && got->error < 1e-9 * far)) fail_msg("error %g", got->error);
 }
 
-static void check_hit(const struct pair *s, ray r, const struct hit *hit, const struct hit *want, double size) {
+static void check_hit(const struct pair *s, ray r, const struct hit *hit, const struct hit *want,
+                      double size) {
     assert_true(occurrence_equal(&hit->which, &s->which[want->which.number[0]]));
     assert_int_equal(hit->material, want->material);
     assert_int_equal(hit->crossing.part, want->crossing.part);
     assert_near(hit->crossing.t, want->crossing.t, 1e-9 * (100 + want->crossing.t), "t");
-    const struct surface surface = accel_surface(s->accel, r, hit), flat = accel_surface(s->flat_accel, r, want);
+    const struct surface surface = accel_surface(s->accel, r, hit),
+                         flat = accel_surface(s->flat_accel, r, want);
     assert_same_surface(&surface, &flat, 100 * size);
 }
 
@@ -357,14 +389,17 @@ static void errors_hold(void **state) {
         add_flat(leaf, FLAT_SQUARE, random_map(&r, 5), CLAY);
         const double size = far[random_below(&r, 3)];
         add_instance(add_geometry(s, 9), 0, random_map(&r, far[random_below(&r, 3)]), CLAY);
-        add_instance(&s->instanced.primitives, 1, affine_compose(affine_scale(vec3_all(size)), random_map(&r, far[random_below(&r, 3)])), CLAY);
+        add_instance(&s->instanced.primitives, 1,
+                     affine_compose(affine_scale(vec3_all(size)), random_map(&r, far[random_below(&r, 3)])),
+                     CLAY);
         pair_build(s);
         for (int i = 0; i < 2000; i++) {
             const struct primitives *flat = &s->flat.primitives;
             const primitive_ref ref = flat->info[random_below(&r, flat->count)].ref;
             const box3 box = shape_bounds(flat, ref);
             const vec3 from = vec3_madd(box3_center(box), size, random_vec3(&r, -20, 20));
-            const ray one = {from, vec3_sub(vec3_madd(box3_center(box), size, random_vec3(&r, -0.3, 0.3)), from)};
+            const ray one = {from,
+                             vec3_sub(vec3_madd(box3_center(box), size, random_vec3(&r, -0.3, 0.3)), from)};
             struct hit hit, again;
             if (!accel_nearest(s->accel, one, 0.0, INFINITY, &hit)) continue;
             const struct surface surface = accel_surface(s->accel, one, &hit);
@@ -379,8 +414,10 @@ static void errors_hold(void **state) {
             if (!(vec3_dot(dir, out) > 0.0)) continue;
             const ray leaving = {vec3_madd(surface.point, surface.error, out), dir};
             tried++;
-            if (accel_nearest(s->accel, leaving, 0.0, INFINITY, &again) && occurrence_equal(&again.which, &hit.which))
-                fail_msg("round %d: a ray at %g off the surface hits it again after %g", round, surface.error, again.crossing.t);
+            if (accel_nearest(s->accel, leaving, 0.0, INFINITY, &again) &&
+                occurrence_equal(&again.which, &hit.which))
+                fail_msg("round %d: a ray at %g off the surface hits it again after %g", round, surface.error,
+                         again.crossing.t);
         }
         pair_end(s);
     }
@@ -399,7 +436,8 @@ static void support_is_tight(void **state) {
             assert_near(got, want, 3e-4, "support"); /* 1e-6 of up to 200 */
         }
         const vec3 below = vec3_sub(flat.min, box.min), above = vec3_sub(box.max, flat.max);
-        assert_true(below.x > -1e-9 && below.y > -1e-9 && below.z > -1e-9 && above.x > -1e-9 && above.y > -1e-9 && above.z > -1e-9);
+        assert_true(below.x > -1e-9 && below.y > -1e-9 && below.z > -1e-9 && above.x > -1e-9 &&
+                    above.y > -1e-9 && above.z > -1e-9);
         pair_end(s);
     }
 }
@@ -409,7 +447,8 @@ static void support_is_tight(void **state) {
 static struct monge_film *render(const struct scene *scene, const struct accel *accel, unsigned threads) {
     const struct monge_job job = {.threads = threads};
     struct monge_stats stats;
-    struct monge_film *film = film_new(&scene->settings, (struct monge_region){0, 0, scene->settings.width, scene->settings.height});
+    struct monge_film *film = film_new(
+        &scene->settings, (struct monge_region){0, 0, scene->settings.width, scene->settings.height});
     assert_non_null(film);
     assert_true(render_film(scene, accel, &job, film, &stats));
     return film;
@@ -425,7 +464,8 @@ static size_t assert_same_picture(struct pair *s, size_t allowed) {
     size_t different = 0, colors = 0;
     for (size_t i = 0; i < (size_t)settings.width * settings.height; i++) {
         bool same = true;
-        for (size_t c = 0; c < 3; c++) same &= fabs((double)one->rgb[3 * i + c] - (double)two->rgb[3 * i + c]) < 1e-4;
+        for (size_t c = 0; c < 3; c++)
+            same &= fabs((double)one->rgb[3 * i + c] - (double)two->rgb[3 * i + c]) < 1e-4;
         different += !same;
         colors += i > 0 && memcmp(&one->rgb[3 * i], &one->rgb[3 * i - 3], 3 * sizeof(float)) != 0;
     }
@@ -454,16 +494,30 @@ static struct pair *glass_pair(bool orthographic) {
     add_sphere(add_geometry(s, 9), (vec3){0, 0, 0}, 1, MATERIAL_INHERITED);
     struct primitives *two = add_geometry(s, 9), *top = &s->instanced.primitives;
     add_instance(two, 0, affine_scale(vec3_all(3)), WATER);
-    add_instance(two, 0, affine_compose(affine_translate((vec3){0.3, 0, 0}), affine_scale((vec3){1, 1.4, -1})), MATERIAL_INHERITED);
-    add_instance(two, 0, affine_compose(affine_translate((vec3){0.9, 0.2, -0.4}), affine_scale((vec3){1, 0.6, 1})), WATER);
+    add_instance(two, 0,
+                 affine_compose(affine_translate((vec3){0.3, 0, 0}), affine_scale((vec3){1, 1.4, -1})),
+                 MATERIAL_INHERITED);
+    add_instance(two, 0,
+                 affine_compose(affine_translate((vec3){0.9, 0.2, -0.4}), affine_scale((vec3){1, 0.6, 1})),
+                 WATER);
     add_instance(top, 1, AFFINE_IDENTITY, GLASS);
-    add_instance(top, 1, affine_compose(affine_translate((vec3){-4, 0, -5}), affine_rotate((vec3){0, 1, 0}, 40)), GLASS);
+    add_instance(top, 1,
+                 affine_compose(affine_translate((vec3){-4, 0, -5}), affine_rotate((vec3){0, 1, 0}, 40)),
+                 GLASS);
     add_instance(top, 0, affine_translate((vec3){4, 0, -7}), CLAY);
     add_instance(top, 0, affine_translate((vec3){2, 3, -9}), MIRROR);
-    add_flat(top, FLAT_PLANE, affine_compose(affine_translate((vec3){0, -3.5, 0}), affine_rotate((vec3){1, 0, 0}, -90)), CLAY);
-    s->instanced.camera = (struct camera){.projection = orthographic ? CAMERA_ORTHOGRAPHIC : CAMERA_PERSPECTIVE,
-                                          .has_eye = true, .has_direction = true, .has_height = orthographic, .height = 5,
-                                          .eye = {0.4, 0.1, 0.2}, .direction = {-0.1, 0, -1}, .up = {0, 1, 0}, .fov_deg = 60};
+    add_flat(top, FLAT_PLANE,
+             affine_compose(affine_translate((vec3){0, -3.5, 0}), affine_rotate((vec3){1, 0, 0}, -90)), CLAY);
+    s->instanced.camera =
+        (struct camera){.projection = orthographic ? CAMERA_ORTHOGRAPHIC : CAMERA_PERSPECTIVE,
+                        .has_eye = true,
+                        .has_direction = true,
+                        .has_height = orthographic,
+                        .height = 5,
+                        .eye = {0.4, 0.1, 0.2},
+                        .direction = {-0.1, 0, -1},
+                        .up = {0, 1, 0},
+                        .fov_deg = 60};
     pair_build(s);
     return s;
 }
@@ -479,7 +533,8 @@ static void a_camera_in_glass(void **state) {
         assert_int_equal(in.media.count, 3); /* the large ball, of water, and both small ones */
         assert_int_equal(flat_in.media.count, 3);
         for (int i = 0; i < in.media.count; i++) {
-            assert_true(occurrence_equal(in.media.inside[i].which, &s->which[flat_in.media.inside[i].which->number[0]]));
+            assert_true(occurrence_equal(in.media.inside[i].which,
+                                         &s->which[flat_in.media.inside[i].which->number[0]]));
             assert_true(in.media.inside[i].index == flat_in.media.inside[i].index);
         }
         assert_true(assert_same_picture(s, 6) > 3000);
@@ -492,7 +547,8 @@ static void too_many_media(void **state) {
     (void)state;
     struct pair *s = pair_begin();
     add_sphere(add_geometry(s, 9), (vec3){0, 0, 0}, 1, MATERIAL_INHERITED);
-    for (int i = 0; i < 40; i++) add_instance(&s->instanced.primitives, 0, affine_scale(vec3_all(1 + (i * 7) % 40)), GLASS);
+    for (int i = 0; i < 40; i++)
+        add_instance(&s->instanced.primitives, 0, affine_scale(vec3_all(1 + (i * 7) % 40)), GLASS);
     pair_build(s);
     struct media_origin in;
     media_at(&s->instanced, s->accel, (ray){{0, 0, 0.5}, {0, 1, 1}}, &in);
@@ -531,9 +587,12 @@ static void ten_million_balls(void **state) {
     double apart = 1.0;
     for (uint32_t level = 0; level < 7; level++, apart *= 10.0) {
         struct primitives *p = level < 6 ? add_geometry(s, 10) : &s->instanced.primitives;
-        for (int i = 0; i < 10; i++) add_instance(p, level, affine_translate((vec3){i * apart, 0, 0}), level < 6 ? MATERIAL_INHERITED : GLASS);
+        for (int i = 0; i < 10; i++)
+            add_instance(p, level, affine_translate((vec3){i * apart, 0, 0}),
+                         level < 6 ? MATERIAL_INHERITED : GLASS);
     }
-    s->accel = accel_build(&arena, &s->instanced.primitives, s->geometries, s->instanced.geometry_count, clear);
+    s->accel =
+        accel_build(&arena, &s->instanced.primitives, s->geometries, s->instanced.geometry_count, clear);
     printf("# %zu bytes\n", arena.total);
     assert_true(arena.total < 300 * 1000);
     for (int i = 0; i < 1000; i++) {
@@ -566,7 +625,8 @@ static void the_deepest_nesting(void **state) {
     struct pair *s = pair_begin();
     add_sphere(add_geometry(s, 1), (vec3){0, 0, 0}, 1, MATERIAL_INHERITED);
     for (uint32_t level = 1; level < INSTANCE_MAX_DEPTH; level++)
-        add_instance(add_geometry(s, 1), level - 1, affine_translate((vec3){1, 0, 0}), level == 5 ? GLASS : MATERIAL_INHERITED);
+        add_instance(add_geometry(s, 1), level - 1, affine_translate((vec3){1, 0, 0}),
+                     level == 5 ? GLASS : MATERIAL_INHERITED);
     add_instance(&s->instanced.primitives, INSTANCE_MAX_DEPTH - 1, affine_scale(vec3_all(2)), CLAY);
     pair_build(s);
     struct hit hit;
@@ -574,7 +634,8 @@ static void the_deepest_nesting(void **state) {
     assert_near(hit.crossing.t, 7, 1e-12, "t");
     assert_int_equal(hit.which.depth, INSTANCE_MAX_DEPTH);
     assert_int_equal(hit.material, GLASS);
-    assert_vec3_near(accel_surface(s->accel, (ray){{62, 9, 0}, {0, -1, 0}}, &hit).point, (vec3){62, 2, 0}, 1e-12, "point");
+    assert_vec3_near(accel_surface(s->accel, (ray){{62, 9, 0}, {0, -1, 0}}, &hit).point, (vec3){62, 2, 0},
+                     1e-12, "point");
     pair_end(s);
 }
 
@@ -622,9 +683,12 @@ static void dark_scenes(void **state) {
         uint32_t own, inner, outer;
         unsigned warnings;
     } rows[] = {
-        {MATERIAL_INHERITED, MATERIAL_INHERITED, BLACK, 1}, {MATERIAL_INHERITED, MATERIAL_INHERITED, WHITE, 0},
-        {MATERIAL_INHERITED, BLACK, WHITE, 1},              {MATERIAL_INHERITED, WHITE, BLACK, 0},
-        {BLACK, WHITE, WHITE, 1},                           {WHITE, BLACK, BLACK, 0},
+        {MATERIAL_INHERITED, MATERIAL_INHERITED, BLACK, 1},
+        {MATERIAL_INHERITED, MATERIAL_INHERITED, WHITE, 0},
+        {MATERIAL_INHERITED, BLACK, WHITE, 1},
+        {MATERIAL_INHERITED, WHITE, BLACK, 0},
+        {BLACK, WHITE, WHITE, 1},
+        {WHITE, BLACK, BLACK, 0},
     };
     for (size_t i = 0; i < COUNT(rows); i++) {
         struct loaded l;
@@ -647,12 +711,18 @@ static void dark_scenes(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_same_as_brute_force), cmocka_unit_test(ties),
-        cmocka_unit_test(the_same_as_flattened),   cmocka_unit_test(errors_hold),
-        cmocka_unit_test(support_is_tight),        cmocka_unit_test(the_same_pictures),
-        cmocka_unit_test(a_camera_in_glass),       cmocka_unit_test(too_many_media),
-        cmocka_unit_test(threads_change_nothing),  cmocka_unit_test(ten_million_balls),
-        cmocka_unit_test(the_deepest_nesting),     cmocka_unit_test(fingerprints),
+        cmocka_unit_test(the_same_as_brute_force),
+        cmocka_unit_test(ties),
+        cmocka_unit_test(the_same_as_flattened),
+        cmocka_unit_test(errors_hold),
+        cmocka_unit_test(support_is_tight),
+        cmocka_unit_test(the_same_pictures),
+        cmocka_unit_test(a_camera_in_glass),
+        cmocka_unit_test(too_many_media),
+        cmocka_unit_test(threads_change_nothing),
+        cmocka_unit_test(ten_million_balls),
+        cmocka_unit_test(the_deepest_nesting),
+        cmocka_unit_test(fingerprints),
         cmocka_unit_test(dark_scenes),
     };
     return cmocka_run_group_tests_name("instance", tests, NULL, NULL);

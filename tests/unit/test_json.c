@@ -12,7 +12,8 @@ static struct row {
     {"a word", "king", "\"king\""},
     {"quotes and backslashes", "a\"b\\c", "\"a\\\"b\\\\c\""},
     {"line breaks, tabs and other controls", "\n\t\001\177", "\"\\n\\u0009\\u0001\\u007f\""},
-    {"characters of two to four bytes", "\xc3\xa9\xe2\x82\xac\xf0\x9f\x98\x80", "\"\xc3\xa9\xe2\x82\xac\xf0\x9f\x98\x80\""},
+    {"characters of two to four bytes", "\xc3\xa9\xe2\x82\xac\xf0\x9f\x98\x80",
+     "\"\xc3\xa9\xe2\x82\xac\xf0\x9f\x98\x80\""},
     {"bytes that are no UTF-8", "a\xff\xc3", "\"a\\ufffd\\ufffd\""},
     {"half a surrogate pair", "\xed\xa0\x80", "\"\\ufffd\\ufffd\\ufffd\""},
     {"an overlong slash", "\xc0\xaf/", "\"\\ufffd\\ufffd/\""},
@@ -46,13 +47,15 @@ static void check_layout(void **state) {
     json_number(&json, "last", 0);
     json_close(&json, '}');
     fclose(json.out);
-    assert_string_equal(text, "{\n  \"name\": \"king\",\n  \"list\": [\n    8,\n    true,\n    null,\n    {}\n  ],\n  \"last\": 0\n}\n");
+    assert_string_equal(text, "{\n  \"name\": \"king\",\n  \"list\": [\n    8,\n    true,\n    null,\n    "
+                              "{}\n  ],\n  \"last\": 0\n}\n");
     free(text);
 }
 
 int main(void) {
     enum { ROWS = sizeof rows / sizeof *rows };
     struct CMUnitTest tests[ROWS + 1] = {cmocka_unit_test(check_layout)};
-    for (int i = 0; i < ROWS; i++) tests[i + 1] = (struct CMUnitTest){rows[i].name, check_string, NULL, NULL, &rows[i]};
+    for (int i = 0; i < ROWS; i++)
+        tests[i + 1] = (struct CMUnitTest){rows[i].name, check_string, NULL, NULL, &rows[i]};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

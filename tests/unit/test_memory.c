@@ -14,7 +14,8 @@
 
 static const char text[] =
     "params: {n: 3}\n"
-    "define: {flake: {params: {d: 0}, objects: [{sphere: {}}, {when: d > 0, for: {i: 5}, use: flake, with: {d: d - 1},\n"
+    "define: {flake: {params: {d: 0}, objects: [{sphere: {}}, {when: d > 0, for: {i: 5}, use: flake, with: "
+    "{d: d - 1},\n"
     "  transform: [{scale: 1 / 3}, {translate: [i, 0, 0]}]}]}}\n"
     "scene:\n"
     "  - {use: flake, with: {d: n}, material: {preset: chrome}}\n"
@@ -26,7 +27,8 @@ static void within_any_memory(void **state) {
     (void)state;
     for (size_t bytes = 1000; bytes < 3000000; bytes += bytes / 50) {
         struct monge_diagnostics *diag = monge_diagnostics_new();
-        const struct monge_load_options options = {.limits.memory_bytes = bytes, .defines = bytes % 2 ? &define : &number, .define_count = 1};
+        const struct monge_load_options options = {
+            .limits.memory_bytes = bytes, .defines = bytes % 2 ? &define : &number, .define_count = 1};
         struct monge_scene *scene = monge_load_memory("small.yaml", text, strlen(text), &options, diag);
         full += monge_diagnostics_failures(diag) > 0;
         good += scene != NULL;
@@ -60,6 +62,7 @@ static void files_are_closed(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(within_any_memory), cmocka_unit_test(files_are_closed)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(within_any_memory),
+                                       cmocka_unit_test(files_are_closed)};
     return cmocka_run_group_tests_name("memory", tests, NULL, NULL);
 }

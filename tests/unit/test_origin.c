@@ -14,8 +14,10 @@ static void check_sharing(void **state) {
     (void)state;
     struct arena arena = {0};
     struct origins origins = {0};
-    const struct origin ball = {.name = "ball", .kind = 3, .template = ORIGIN_NO_TEMPLATE}, box = {.kind = 4, .template = 0};
-    const uint32_t first = origins_add(&origins, &arena, at(1, 4), ball), second = origins_add(&origins, &arena, at(9, 4), box);
+    const struct origin ball = {.name = "ball", .kind = 3, .template = ORIGIN_NO_TEMPLATE},
+                        box = {.kind = 4, .template = 0};
+    const uint32_t first = origins_add(&origins, &arena, at(1, 4), ball),
+                   second = origins_add(&origins, &arena, at(9, 4), box);
     assert_int_not_equal(first, second);
     for (int i = 0; i < 1000; i++) { /* as in a loop of two */
         char name[] = "ball";
@@ -72,7 +74,8 @@ static struct hash fingerprint(const char *text) {
 static void check_fingerprint(void **state) {
     (void)state;
     const struct hash plain = fingerprint("scene: [{sphere: {}}, {box: {min: [1, 1, 1], max: [2, 2, 2]}}]");
-    const struct hash named = fingerprint("scene:\n\n  - group: [{sphere: {}, name: ball}]\n    name: all\n  - box: {min: [1, 1, 1], max: [2, 2, 2]}\n");
+    const struct hash named = fingerprint("scene:\n\n  - group: [{sphere: {}, name: ball}]\n    name: all\n  "
+                                          "- box: {min: [1, 1, 1], max: [2, 2, 2]}\n");
     const struct hash other = fingerprint("scene: [{sphere: {}}, {box: {min: [1, 1, 1], max: [2, 2, 3]}}]");
     assert_true(plain.high == named.high && plain.low == named.low);
     assert_false(plain.high == other.high && plain.low == other.low);

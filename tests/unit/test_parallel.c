@@ -60,8 +60,9 @@ static void the_caller_works_too(void **state) {
 /* With no address space left for stacks, pthread_create fails. */
 static void the_work_is_done_without_threads(void **state) {
     (void)state;
-#if defined __SANITIZE_ADDRESS__ || defined __SANITIZE_THREAD__ || defined __clang__ /* which names its sanitizers otherwise */
-    skip(); /* they reserve address space of their own */
+#if defined __SANITIZE_ADDRESS__ || defined __SANITIZE_THREAD__ ||                                           \
+    defined __clang__ /* which names its sanitizers otherwise */
+    skip();           /* they reserve address space of their own */
 #else
     struct rlimit before, none;
     getrlimit(RLIMIT_AS, &before);

@@ -22,7 +22,8 @@ static struct monge_scene *load(const char *text) {
     return scene;
 }
 
-static struct monge_film *render(struct monge_scene *scene, const struct monge_region *region, unsigned threads) {
+static struct monge_film *render(struct monge_scene *scene, const struct monge_region *region,
+                                 unsigned threads) {
     const struct monge_settings settings = monge_scene_settings(scene);
     const struct monge_job job = {.threads = threads};
     struct monge_film *film = monge_render(scene, &settings, region, &job, NULL);
@@ -35,7 +36,8 @@ static char *busy_scene(double s, double size_x, double size_y) {
     static const char form[] =
         "image: {size: [%g, %g], samples: 1}\n"
         "camera: {eye: [%.17g, %.17g, %.17g], look_at: [0, 0, 0], fov: 40}\n"
-        "lights: [{point: {at: [%.17g, %.17g, %.17g]}}, {point: {at: [%.17g, %.17g, 0], color: [0.3, 0.3, 0.3]}}, {ambient: {}}]\n"
+        "lights: [{point: {at: [%.17g, %.17g, %.17g]}}, {point: {at: [%.17g, %.17g, 0], color: [0.3, 0.3, "
+        "0.3]}}, {ambient: {}}]\n"
         "materials:\n"
         "  clay: {ambient: [0.1, 0.1, 0.1], diffuse: [0.7, 0.5, 0.3], specular: [0.4, 0.4, 0.4]}\n"
         "  chrome: {diffuse: [0.1, 0.1, 0.1], reflection: 0.8}\n"
@@ -45,12 +47,15 @@ static char *busy_scene(double s, double size_x, double size_y) {
         "      - {plane: {point: [0, -1, 0], normal: [0, 1, 0]}, material: clay}\n"
         "      - {sphere: {center: [-1.2, -0.2, -1], radius: 0.8}, material: chrome}\n"
         "      - {sphere: {center: [0.6, -0.4, 0.9], radius: 0.6}, material: glass}\n"
-        "      - {sphere: {}, transform: [{scale: [0.3, 0.8, 0.4]}, {rotate: {z: 30}}, {translate: [0.6, -0.1, -0.9]}], material: clay}\n"
+        "      - {sphere: {}, transform: [{scale: [0.3, 0.8, 0.4]}, {rotate: {z: 30}}, {translate: [0.6, "
+        "-0.1, -0.9]}], material: clay}\n"
         "      - {cylinder: {from: [1.5, -1, 0], to: [1.7, 0.2, -0.5], radius: 0.3}, material: clay}\n"
         "      - {cone: {from: [-0.6, -1, 0.6], to: [-0.6, 0, 0.4], radius: 0.4}, material: chrome}\n"
-        "      - {paraboloid: {from: [-1.6, -1, 0.8], to: [-1.6, -0.4, 0.8], radius: 0.3, open: true}, material: clay}\n"
+        "      - {paraboloid: {from: [-1.6, -1, 0.8], to: [-1.6, -0.4, 0.8], radius: 0.3, open: true}, "
+        "material: clay}\n"
         "      - {hyperboloid: {from: [1.4, -1, 1], to: [1.4, -0.4, 1], radius: 0.2}, material: clay}\n"
-        "      - {box: {min: [-2.2, -1, -1], max: [-1.9, 0.8, 0]}, transform: {rotate: {y: 20}}, material: clay}\n"
+        "      - {box: {min: [-2.2, -1, -1], max: [-1.9, 0.8, 0]}, transform: {rotate: {y: 20}}, material: "
+        "clay}\n"
         "    transform: {scale: %.17g}\n";
     const size_t room = sizeof form + 500;
     char *text = malloc(room);
@@ -79,12 +84,14 @@ static void test_regions(void **state) {
     char *text = busy_scene(1, 120, 90);
     struct monge_scene *scene = load(text);
     struct monge_film *whole = render(scene, NULL, 2);
-    const struct monge_region regions[] = {{0, 0, 1, 1}, {119, 89, 1, 1}, {17, 5, 40, 33}, {0, 33, 120, 57}, {64, 0, 56, 90}};
+    const struct monge_region regions[] = {
+        {0, 0, 1, 1}, {119, 89, 1, 1}, {17, 5, 40, 33}, {0, 33, 120, 57}, {64, 0, 56, 90}};
     for (size_t i = 0; i < sizeof regions / sizeof *regions; i++) {
         const struct monge_region *r = &regions[i];
         struct monge_film *part = render(scene, r, 2);
         for (uint32_t y = 0; y < r->height; y++)
-            assert_memory_equal(monge_film_pixels(part) + 3 * y * r->width, monge_film_pixels(whole) + 3 * ((r->y + y) * 120 + r->x),
+            assert_memory_equal(monge_film_pixels(part) + 3 * y * r->width,
+                                monge_film_pixels(whole) + 3 * ((r->y + y) * 120 + r->x),
                                 3 * r->width * sizeof(float));
         monge_film_free(part);
     }
@@ -114,7 +121,8 @@ static void test_scale_of_the_world(void **state) {
         char *scaled_text = busy_scene(scales[i], 160, 120);
         struct monge_scene *scaled = load(scaled_text);
         struct monge_film *film = render(scaled, NULL, 2);
-        const size_t different = count_different(monge_film_pixels(plain), monge_film_pixels(film), 160 * 120);
+        const size_t different =
+            count_different(monge_film_pixels(plain), monge_film_pixels(film), 160 * 120);
         if (different > 3) fail_msg("at scale %g %zu pixels differ", scales[i], different);
         monge_film_free(film);
         monge_scene_free(scaled);
@@ -143,19 +151,32 @@ static struct view view_of(const struct scene *scene, uint32_t width, uint32_t h
 
 static void test_perspective(void **state) {
     (void)state;
-    const struct scene scene = {.camera = {.has_eye = true, .has_look_at = true, .eye = {0, 0, 1}, .look_at = {0, 0, -1}, .up = {0, 1, 0}, .fov_deg = 60}};
+    const struct scene scene = {.camera = {.has_eye = true,
+                                           .has_look_at = true,
+                                           .eye = {0, 0, 1},
+                                           .look_at = {0, 0, -1},
+                                           .up = {0, 1, 0},
+                                           .fov_deg = 60}};
     const struct view view = view_of(&scene, 320, 240);
     const double tan30 = 0.57735026918962576;
     assert_vec3(camera_ray(&view, 0.5, 0.5).dir, (vec3){0, 0, -1}, 1e-15);
-    assert_vec3(camera_ray(&view, 0.5, 0).dir, (vec3){0, tan30, -1}, 1e-15);          /* top */
-    assert_vec3(camera_ray(&view, 1, 0.5).dir, (vec3){tan30 * 4 / 3, 0, -1}, 1e-15); /* right: square pixels */
+    assert_vec3(camera_ray(&view, 0.5, 0).dir, (vec3){0, tan30, -1}, 1e-15); /* top */
+    assert_vec3(camera_ray(&view, 1, 0.5).dir, (vec3){tan30 * 4 / 3, 0, -1},
+                1e-15); /* right: square pixels */
     assert_vec3(camera_ray(&view, 0, 1).org, (vec3){0, 0, 1}, 0);
 }
 
 static void test_orthographic(void **state) {
     (void)state;
-    const struct scene scene = {.camera = {.projection = CAMERA_ORTHOGRAPHIC, .has_eye = true, .has_direction = true, .has_height = true,
-                                           .eye = {0, 10, 0}, .direction = {0, -2, 0}, .up = {0, 0, -1}, .has_up = true, .height = 4}};
+    const struct scene scene = {.camera = {.projection = CAMERA_ORTHOGRAPHIC,
+                                           .has_eye = true,
+                                           .has_direction = true,
+                                           .has_height = true,
+                                           .eye = {0, 10, 0},
+                                           .direction = {0, -2, 0},
+                                           .up = {0, 0, -1},
+                                           .has_up = true,
+                                           .height = 4}};
     const struct view view = view_of(&scene, 200, 100);
     assert_vec3(camera_ray(&view, 0.5, 0.5).org, (vec3){0, 10, 0}, 1e-15);
     assert_vec3(camera_ray(&view, 1, 0).org, (vec3){4, 10, -2}, 1e-15);
@@ -164,7 +185,12 @@ static void test_orthographic(void **state) {
 
 static void test_straight_down(void **state) {
     (void)state;
-    const struct scene scene = {.camera = {.has_eye = true, .has_look_at = true, .eye = {0, 5, 0}, .look_at = {0, 0, 0}, .up = {0, 1, 0}, .fov_deg = 90}};
+    const struct scene scene = {.camera = {.has_eye = true,
+                                           .has_look_at = true,
+                                           .eye = {0, 5, 0},
+                                           .look_at = {0, 0, 0},
+                                           .up = {0, 1, 0},
+                                           .fov_deg = 90}};
     const struct view view = view_of(&scene, 100, 100);
     assert_vec3(camera_ray(&view, 0.5, 0).dir, (vec3){0, -1, -1}, 1e-15); /* what is far is up */
 }
@@ -182,7 +208,12 @@ static void test_framing(void **state) {
         "{group: [{sphere: {}}, {sphere: {center: [0, 9, 0]}}, {cone: {from: [5, 0, 0], to: [5, 0, -9]}}]}",
     };
     static const char *const cameras[] = {
-        "{}", "{fov: 5}", "{fov: 120}", "{projection: orthographic}", "{direction: [1, -1, 0.3]}", "{direction: [0, -1, 0]}",
+        "{}",
+        "{fov: 5}",
+        "{fov: 120}",
+        "{projection: orthographic}",
+        "{direction: [1, -1, 0.3]}",
+        "{direction: [0, -1, 0]}",
         "{direction: [0, 0, 1], projection: orthographic}",
     };
     static const double sizes[][2] = {{48, 36}, {90, 20}, {20, 90}};
@@ -190,7 +221,9 @@ static void test_framing(void **state) {
         for (size_t j = 0; j < sizeof cameras / sizeof *cameras; j++)
             for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++) {
                 char text[1000];
-                snprintf(text, sizeof text, "image: {size: [%g, %g], background: black}\nrender: {shading: signature}\ncamera: %s\nscene: [%s]\n",
+                snprintf(text, sizeof text,
+                         "image: {size: [%g, %g], background: black}\nrender: {shading: signature}\ncamera: "
+                         "%s\nscene: [%s]\n",
                          sizes[k][0], sizes[k][1], cameras[j], objects[i]);
                 struct monge_scene *scene = load(text);
                 struct monge_film *film = render(scene, NULL, 1);
@@ -200,9 +233,13 @@ static void test_framing(void **state) {
                     for (uint32_t x = 0; x < r.width; x++) {
                         const double v = (double)monge_film_pixels(film)[3 * (y * r.width + x)];
                         const bool edge = x == 0 || y == 0 || x == r.width - 1 || y == r.height - 1;
-                        const bool near_edge = 5 * x < r.width || 5 * y < r.height || 5 * (r.width - 1 - x) < r.width || 5 * (r.height - 1 - y) < r.height;
-                        if (edge) border += v;
-                        else if (near_edge) inner += v;
+                        const bool near_edge = 5 * x < r.width || 5 * y < r.height ||
+                                               5 * (r.width - 1 - x) < r.width ||
+                                               5 * (r.height - 1 - y) < r.height;
+                        if (edge)
+                            border += v;
+                        else if (near_edge)
+                            inner += v;
                     }
                 if (border > 0) fail_msg("cut off: %s", text);
                 if (!(inner > 0)) fail_msg("too small: %s", text);
@@ -213,8 +250,12 @@ static void test_framing(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_threads),     cmocka_unit_test(test_regions),       cmocka_unit_test(test_scale_of_the_world),
-        cmocka_unit_test(test_perspective), cmocka_unit_test(test_orthographic), cmocka_unit_test(test_straight_down),
+        cmocka_unit_test(test_threads),
+        cmocka_unit_test(test_regions),
+        cmocka_unit_test(test_scale_of_the_world),
+        cmocka_unit_test(test_perspective),
+        cmocka_unit_test(test_orthographic),
+        cmocka_unit_test(test_straight_down),
         cmocka_unit_test(test_framing),
     };
     return cmocka_run_group_tests_name("render", tests, NULL, NULL);

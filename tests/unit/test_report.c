@@ -45,8 +45,10 @@ struct material {
     real exponent;
 };
 
-static const struct material gold = {{0.3L, 0.3L, 0.3L}, {0.75164L, 0.60648L, 0.22648L}, {0.628281L, 0.555802L, 0.366065L}, 51.2L};
-static const struct material jade = {{0, 0, 0}, {0.54L, 0.89L, 0.63L}, {0.316228L, 0.316228L, 0.316228L}, 12.8L};
+static const struct material gold = {
+    {0.3L, 0.3L, 0.3L}, {0.75164L, 0.60648L, 0.22648L}, {0.628281L, 0.555802L, 0.366065L}, 51.2L};
+static const struct material jade = {
+    {0, 0, 0}, {0.54L, 0.89L, 0.63L}, {0.316228L, 0.316228L, 0.316228L}, 12.8L};
 static const vec light = {0, 0, 5};
 static const real light_color = 0.9L;
 
@@ -87,7 +89,8 @@ static vec shade(const struct hit *hit, vec eye, vec dir, enum monge_shading sha
     const vec mirrored = minus(times(2 * cosine, hit->normal), to_light);
     const real shine = fmaxl(0, -dot(mirrored, unit(dir)));
     vec color = add(m->ambient, times(fmaxl(0, cosine), m->diffuse));
-    if (shading == MONGE_SHADING_PHONG && shine > 0) color = add(color, times(powl(shine, m->exponent), m->specular));
+    if (shading == MONGE_SHADING_PHONG && shine > 0)
+        color = add(color, times(powl(shine, m->exponent), m->specular));
     return times(light_color, color);
 }
 
@@ -122,10 +125,13 @@ static const struct row {
     {"view 1, one pixel", 0, MONGE_SHADING_PHONG, 1, 1},
 };
 
-static vec oracle(const struct view *view, enum monge_shading shading, uint32_t width, uint32_t height, uint32_t x, uint32_t y) {
-    const vec forward = unit(view->direction), right = unit(cross(forward, (vec){0, 1, 0})), up = cross(right, forward);
+static vec oracle(const struct view *view, enum monge_shading shading, uint32_t width, uint32_t height,
+                  uint32_t x, uint32_t y) {
+    const vec forward = unit(view->direction), right = unit(cross(forward, (vec){0, 1, 0})),
+              up = cross(right, forward);
     const real pixel = tanl(30 * pi / 180) / (height / 2.0L);
-    const vec dir = add(forward, add(times((x + 0.5L - width / 2.0L) * pixel, right), times((height / 2.0L - y - 0.5L) * pixel, up)));
+    const vec dir = add(forward, add(times((x + 0.5L - width / 2.0L) * pixel, right),
+                                     times((height / 2.0L - y - 0.5L) * pixel, up)));
     const struct hit hit = trace(view->eye, dir);
     return shade(&hit, view->eye, dir, shading);
 }
@@ -137,7 +143,8 @@ static void check_pixel(const char *name, uint32_t x, uint32_t y, const float *g
     for (int i = 0; i < 3; i++) {
         const int byte = (int)(clamped((real)got[i]) * 255 + 0.5L), course = (int)(clamped(wants[i]) * 255);
         if (abs(byte - course) <= 1 && fabsl((real)got[i] - wants[i]) < 1e-6L) continue;
-        fail_msg("%s, pixel %u %u, channel %d: %d (%.9g), want %d (%.9Lg)", name, x, y, i, byte, (double)got[i], course, wants[i]);
+        fail_msg("%s, pixel %u %u, channel %d: %d (%.9g), want %d (%.9Lg)", name, x, y, i, byte,
+                 (double)got[i], course, wants[i]);
     }
 }
 
@@ -150,14 +157,18 @@ static void check_row(void **state) {
     assert_non_null(scene);
     struct monge_settings settings = monge_scene_settings(scene);
     settings.shading = row->shading;
-    if (row->width) settings.width = row->width, settings.height = row->height;
-    else assert_true(settings.width == 320 && settings.height == 240 && settings.encoding == MONGE_ENCODING_LINEAR);
+    if (row->width)
+        settings.width = row->width, settings.height = row->height;
+    else
+        assert_true(settings.width == 320 && settings.height == 240 &&
+                    settings.encoding == MONGE_ENCODING_LINEAR);
     struct monge_film *film = monge_render(scene, &settings, NULL, NULL, NULL);
     assert_non_null(film);
     const float *pixel = monge_film_pixels(film);
     for (uint32_t y = 0; y < settings.height; y++)
         for (uint32_t x = 0; x < settings.width; x++, pixel += 3)
-            check_pixel(row->name, x, y, pixel, oracle(view, row->shading, settings.width, settings.height, x, y));
+            check_pixel(row->name, x, y, pixel,
+                        oracle(view, row->shading, settings.width, settings.height, x, y));
     monge_film_free(film);
     monge_scene_free(scene);
     monge_diagnostics_free(diag);

@@ -26,19 +26,25 @@ static void assert_same_primitive(const struct primitives *a, const struct primi
     assert_int_equal(ref, b->info[i].ref);
     switch (primitive_ref_kind(ref)) {
     case PRIMITIVE_SPHERE:
-        assert_vec3_near(a->spheres[index].center, b->spheres[index].center, tolerance * (1 + vec3_max_abs(b->spheres[index].center)), "center");
-        assert_near(a->spheres[index].radius, b->spheres[index].radius, tolerance * b->spheres[index].radius, "radius");
+        assert_vec3_near(a->spheres[index].center, b->spheres[index].center,
+                         tolerance * (1 + vec3_max_abs(b->spheres[index].center)), "center");
+        assert_near(a->spheres[index].radius, b->spheres[index].radius, tolerance * b->spheres[index].radius,
+                    "radius");
         return;
     case PRIMITIVE_FLAT:
-        assert_affine_near(&a->flats[index].world_from_object, &b->flats[index].world_from_object, "flat to world");
-        assert_affine_near(&a->flats[index].object_from_world, &b->flats[index].object_from_world, "world to flat");
+        assert_affine_near(&a->flats[index].world_from_object, &b->flats[index].world_from_object,
+                           "flat to world");
+        assert_affine_near(&a->flats[index].object_from_world, &b->flats[index].object_from_world,
+                           "world to flat");
         assert_int_equal(a->flats[index].outline, b->flats[index].outline);
         return;
     case PRIMITIVE_INSTANCE: fail();
     case PRIMITIVE_QUADRIC: break;
     }
-    assert_affine_near(&a->quadrics[index].world_from_object, &b->quadrics[index].world_from_object, "quadric to world");
-    assert_affine_near(&a->quadrics[index].object_from_world, &b->quadrics[index].object_from_world, "world to quadric");
+    assert_affine_near(&a->quadrics[index].world_from_object, &b->quadrics[index].world_from_object,
+                       "quadric to world");
+    assert_affine_near(&a->quadrics[index].object_from_world, &b->quadrics[index].object_from_world,
+                       "world to quadric");
     assert_same_form(a->quadrics[index].form, b->quadrics[index].form);
 }
 
@@ -47,17 +53,24 @@ static struct pair {
 } pairs[] = {
     {"sphere: centre and radius", "scene: [{sphere: {center: [1, 2, 3], radius: 2}}]",
      "scene: [{sphere: {}, transform: [{scale: 2}, {translate: [1, 2, 3]}]}]"},
-    {"sphere: its parameters come before the node's transform", "scene: [{sphere: {center: [1, 0, 0], radius: 2}, transform: {scale: 3}}]",
+    {"sphere: its parameters come before the node's transform",
+     "scene: [{sphere: {center: [1, 0, 0], radius: 2}, transform: {scale: 3}}]",
      "scene: [{sphere: {center: [3, 0, 0], radius: 6}}]"},
-    {"sphere: stretched, by centre and radius", "scene: [{sphere: {center: [1, 2, 3], radius: 2}, transform: {scale: [1, 2, 1]}}]",
+    {"sphere: stretched, by centre and radius",
+     "scene: [{sphere: {center: [1, 2, 3], radius: 2}, transform: {scale: [1, 2, 1]}}]",
      "scene: [{sphere: {}, transform: [{scale: 2}, {translate: [1, 2, 3]}, {scale: [1, 2, 1]}]}]"},
-    {"plane: point and normal z", "scene: [{plane: {point: [1, 2, 3], normal: [0, 0, 5]}}]", "scene: [{plane: {}, transform: {translate: [1, 2, 3]}}]"},
-    {"plane: no normal", "scene: [{plane: {point: [0, 0, -7]}}]", "scene: [{plane: {normal: [0, 0, 1]}, transform: {translate: [0, 0, -7]}}]"},
-    {"square: centre and size", "scene: [{square: {center: [1, 2, 3], size: 4}}]", "scene: [{square: {}, transform: [{scale: 4}, {translate: [1, 2, 3]}]}]"},
+    {"plane: point and normal z", "scene: [{plane: {point: [1, 2, 3], normal: [0, 0, 5]}}]",
+     "scene: [{plane: {}, transform: {translate: [1, 2, 3]}}]"},
+    {"plane: no normal", "scene: [{plane: {point: [0, 0, -7]}}]",
+     "scene: [{plane: {normal: [0, 0, 1]}, transform: {translate: [0, 0, -7]}}]"},
+    {"square: centre and size", "scene: [{square: {center: [1, 2, 3], size: 4}}]",
+     "scene: [{square: {}, transform: [{scale: 4}, {translate: [1, 2, 3]}]}]"},
     {"disc: centre and radius", "scene: [{disc: {center: [1, 2, 3], radius: 4}}]",
      "scene: [{disc: {}, transform: [{scale: [4, 4, 1]}, {translate: [1, 2, 3]}]}]"},
-    {"box: corners", "scene: [{box: {min: [1, 2, 3], max: [2, 4, 6]}}]", "scene: [{box: {}, transform: [{scale: [1, 2, 3]}, {translate: [1.5, 3, 4.5]}]}]"},
-    {"box: one corner", "scene: [{box: {max: [1.5, 0.5, 0.5]}}]", "scene: [{box: {}, transform: [{scale: [2, 1, 1]}, {translate: [0.5, 0, 0]}]}]"},
+    {"box: corners", "scene: [{box: {min: [1, 2, 3], max: [2, 4, 6]}}]",
+     "scene: [{box: {}, transform: [{scale: [1, 2, 3]}, {translate: [1.5, 3, 4.5]}]}]"},
+    {"box: one corner", "scene: [{box: {max: [1.5, 0.5, 0.5]}}]",
+     "scene: [{box: {}, transform: [{scale: [2, 1, 1]}, {translate: [0.5, 0, 0]}]}]"},
     {"cylinder: along z", "scene: [{cylinder: {from: [1, 2, 3], to: [1, 2, 7], radius: 0.5}}]",
      "scene: [{cylinder: {}, transform: [{scale: [0.5, 0.5, 4]}, {translate: [1, 2, 5]}]}]"},
     {"cone: along z", "scene: [{cone: {from: [1, 2, 3], to: [1, 2, 7], radius: 0.5}}]",
@@ -66,50 +79,83 @@ static struct pair {
      "scene: [{paraboloid: {}, transform: [{scale: [0.5, 0.5, 4]}, {translate: [1, 2, 3]}]}]"},
     {"hyperboloid: along z", "scene: [{hyperboloid: {from: [1, 2, 3], to: [1, 2, 7], radius: 0.5}}]",
      "scene: [{hyperboloid: {}, transform: [{scale: [0.5, 0.5, 2]}, {translate: [1, 2, 5]}]}]"},
-    {"cylinder: the defaults are the canonical form", "scene: [{cylinder: {from: [0, 0, -0.5], to: [0, 0, 0.5], radius: 1, open: false}}]", "scene: [{cylinder: {}}]"},
+    {"cylinder: the defaults are the canonical form",
+     "scene: [{cylinder: {from: [0, 0, -0.5], to: [0, 0, 0.5], radius: 1, open: false}}]",
+     "scene: [{cylinder: {}}]"},
     {"steps: the first acts first", "scene: [{box: {}, transform: [{scale: 2}, {translate: [1, 0, 0]}]}]",
      "scene: [{box: {}, transform: {matrix: [[2, 0, 0, 1], [0, 2, 0, 0], [0, 0, 2, 0]]}}]"},
     {"steps: and the other way", "scene: [{box: {}, transform: [{translate: [1, 0, 0]}, {scale: 2}]}]",
      "scene: [{box: {}, transform: {matrix: [[2, 0, 0, 2], [0, 2, 0, 0], [0, 0, 2, 0]]}}]"},
-    {"steps: a rotation", "scene: [{box: {}, transform: {rotate: {z: 90}}}]", "scene: [{box: {}, transform: {matrix: [[0, -1, 0, 0], [1, 0, 0, 0], [0, 0, 1, 0]]}}]"},
-    {"steps: a rotation about an axis", "scene: [{box: {}, transform: {rotate: {y: 30}}}]", "scene: [{box: {}, transform: {rotate: {axis: [0, 7, 0], angle: 30}}}]"},
-    {"steps: turns add up", "scene: [{box: {}, transform: [{rotate: {x: 20}}, {rotate: {x: 25}}]}]", "scene: [{box: {}, transform: {rotate: {x: 45}}}]"},
+    {"steps: a rotation", "scene: [{box: {}, transform: {rotate: {z: 90}}}]",
+     "scene: [{box: {}, transform: {matrix: [[0, -1, 0, 0], [1, 0, 0, 0], [0, 0, 1, 0]]}}]"},
+    {"steps: a rotation about an axis", "scene: [{box: {}, transform: {rotate: {y: 30}}}]",
+     "scene: [{box: {}, transform: {rotate: {axis: [0, 7, 0], angle: 30}}}]"},
+    {"steps: turns add up", "scene: [{box: {}, transform: [{rotate: {x: 20}}, {rotate: {x: 25}}]}]",
+     "scene: [{box: {}, transform: {rotate: {x: 45}}}]"},
     {"steps: a shear", "scene: [{box: {}, transform: {shear: {xy: 1, xz: 2, yx: 3, yz: 4, zx: 5, zy: 6}}}]",
      "scene: [{box: {}, transform: {matrix: [[1, 1, 2, 0], [3, 1, 4, 0], [5, 6, 1, 0]]}}]"},
-    {"steps: a matrix of four rows", "scene: [{box: {}, transform: {matrix: [[1, 0, 0, 5], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]}}]",
+    {"steps: a matrix of four rows",
+     "scene: [{box: {}, transform: {matrix: [[1, 0, 0, 5], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]}}]",
      "scene: [{box: {}, transform: {translate: [5, 0, 0]}}]"},
-    {"steps: one without its list", "scene: [{box: {}, transform: {scale: 2}}]", "scene: [{box: {}, transform: [{scale: 2}]}]"},
+    {"steps: one without its list", "scene: [{box: {}, transform: {scale: 2}}]",
+     "scene: [{box: {}, transform: [{scale: 2}]}]"},
     {"steps: none", "scene: [{box: {}, transform: []}]", "scene: [{box: {}}]"},
-    {"groups: the transform carries the members", "scene: [{group: [{sphere: {}}, {box: {}}], transform: {translate: [1, 2, 3]}}]",
-     "scene: [{sphere: {}, transform: {translate: [1, 2, 3]}}, {box: {}, transform: {translate: [1, 2, 3]}}]"},
-    {"groups: the member's own transform comes first", "scene: [{group: [{box: {}, transform: {rotate: {z: 30}}}], transform: [{scale: [1, 2, 1]}, {translate: [1, 0, 0]}]}]",
+    {"groups: the transform carries the members",
+     "scene: [{group: [{sphere: {}}, {box: {}}], transform: {translate: [1, 2, 3]}}]",
+     "scene: [{sphere: {}, transform: {translate: [1, 2, 3]}}, {box: {}, transform: {translate: [1, 2, "
+     "3]}}]"},
+    {"groups: the member's own transform comes first",
+     "scene: [{group: [{box: {}, transform: {rotate: {z: 30}}}], transform: [{scale: [1, 2, 1]}, {translate: "
+     "[1, 0, 0]}]}]",
      "scene: [{box: {}, transform: [{rotate: {z: 30}}, {scale: [1, 2, 1]}, {translate: [1, 0, 0]}]}]"},
-    {"groups: nested", "scene: [{group: [{group: [{box: {}, transform: {shear: {xy: 1}}}], transform: {rotate: {y: 20}}}], transform: {scale: -2}}]",
+    {"groups: nested",
+     "scene: [{group: [{group: [{box: {}, transform: {shear: {xy: 1}}}], transform: {rotate: {y: 20}}}], "
+     "transform: {scale: -2}}]",
      "scene: [{box: {}, transform: [{shear: {xy: 1}}, {rotate: {y: 20}}, {scale: -2}]}]"},
-    {"groups: the order of the file stays", "scene: [{sphere: {}}, {group: [{box: {}}, {group: [{disc: {}}]}, {sphere: {radius: 2}}]}, {cone: {}}]",
+    {"groups: the order of the file stays",
+     "scene: [{sphere: {}}, {group: [{box: {}}, {group: [{disc: {}}]}, {sphere: {radius: 2}}]}, {cone: {}}]",
      "scene: [{sphere: {}}, {box: {}}, {disc: {}}, {sphere: {radius: 2}}, {cone: {}}]"},
     {"groups: an empty one is nothing", "scene: [{group: []}, {box: {}}]", "scene: [{box: {}}]"},
-    {"mirrored: a sphere stays a sphere", "scene: [{sphere: {center: [1, 2, 3], radius: 2}, transform: {scale: [-1, 1, 1]}}]",
+    {"mirrored: a sphere stays a sphere",
+     "scene: [{sphere: {center: [1, 2, 3], radius: 2}, transform: {scale: [-1, 1, 1]}}]",
      "scene: [{sphere: {center: [-1, 2, 3], radius: 2}}]"},
-    {"mirrored: inside out", "scene: [{sphere: {radius: 2}, transform: {scale: -3}}]", "scene: [{sphere: {radius: 6}}]"},
-    {"similar: turned, moved and scaled spheres are spheres", "scene: [{sphere: {}, transform: [{rotate: {axis: [1, 2, 3], angle: 40}}, {scale: 2}, {rotate: {y: 70}}, {translate: [4, 5, 6]}]}]",
+    {"mirrored: inside out", "scene: [{sphere: {radius: 2}, transform: {scale: -3}}]",
+     "scene: [{sphere: {radius: 6}}]"},
+    {"similar: turned, moved and scaled spheres are spheres",
+     "scene: [{sphere: {}, transform: [{rotate: {axis: [1, 2, 3], angle: 40}}, {scale: 2}, {rotate: {y: "
+     "70}}, {translate: [4, 5, 6]}]}]",
      "scene: [{sphere: {center: [4, 5, 6], radius: 2}}]"},
-    {"similar: a stretch that is undone", "scene: [{group: [{sphere: {}, transform: {scale: [1, 2, 4]}}], transform: {scale: [4, 2, 1]}}]", "scene: [{sphere: {radius: 4}}]"},
-    {"quadric: its bounds move with it", "scene: [{quadric: {xx: 1, constant: -1}, bounds: {min: [0, 0, 0], max: [1, 1, 1]}, transform: {scale: 2}}]",
-     "scene: [{group: [{quadric: {xx: 1, constant: -1}, bounds: {min: [0, 0, 0], max: [1, 1, 1]}}], transform: {scale: 2}}]"},
-    {"YAML: an alias is a copy", "scene: [{sphere: &s {radius: 2}, transform: &t [{scale: 3}]}, {sphere: *s, transform: *t}]",
-     "scene: [{sphere: {radius: 2}, transform: [{scale: 3}]}, {sphere: {radius: 2}, transform: [{scale: 3}]}]"},
+    {"similar: a stretch that is undone",
+     "scene: [{group: [{sphere: {}, transform: {scale: [1, 2, 4]}}], transform: {scale: [4, 2, 1]}}]",
+     "scene: [{sphere: {radius: 4}}]"},
+    {"quadric: its bounds move with it",
+     "scene: [{quadric: {xx: 1, constant: -1}, bounds: {min: [0, 0, 0], max: [1, 1, 1]}, transform: {scale: "
+     "2}}]",
+     "scene: [{group: [{quadric: {xx: 1, constant: -1}, bounds: {min: [0, 0, 0], max: [1, 1, 1]}}], "
+     "transform: {scale: 2}}]"},
+    {"YAML: an alias is a copy",
+     "scene: [{sphere: &s {radius: 2}, transform: &t [{scale: 3}]}, {sphere: *s, transform: *t}]",
+     "scene: [{sphere: {radius: 2}, transform: [{scale: 3}]}, {sphere: {radius: 2}, transform: [{scale: "
+     "3}]}]"},
     {"YAML: an aliased object", "scene: [&a {sphere: {}, transform: {scale: 2}}, {group: [*a, *a]}]",
      "scene: [{sphere: {radius: 2}}, {sphere: {radius: 2}}, {sphere: {radius: 2}}]"},
-    {"YAML: an alias in another role", "scene: [{sphere: &s {radius: 2, center: [1, 2, 3]}}, {disc: *s}, {sphere: *s}, {disc: *s}]",
-     "scene: [{sphere: {radius: 2, center: [1, 2, 3]}}, {disc: {radius: 2, center: [1, 2, 3]}}, {sphere: {radius: 2, center: [1, 2, 3]}}, {disc: {radius: 2, center: [1, 2, 3]}}]"},
-    {"YAML: one alias as a step and as a list", "scene: [{box: {}, transform: &t {scale: 2}}, {box: {}, transform: [*t, *t]}, {box: {}, transform: *t}]",
-     "scene: [{box: {}, transform: {scale: 2}}, {box: {}, transform: {scale: 4}}, {box: {}, transform: {scale: 2}}]"},
-    {"YAML: merge keys", "scene: [{sphere: &s {radius: 2, center: [1, 1, 1]}}, {sphere: {<<: *s, radius: 3}}]",
+    {"YAML: an alias in another role",
+     "scene: [{sphere: &s {radius: 2, center: [1, 2, 3]}}, {disc: *s}, {sphere: *s}, {disc: *s}]",
+     "scene: [{sphere: {radius: 2, center: [1, 2, 3]}}, {disc: {radius: 2, center: [1, 2, 3]}}, {sphere: "
+     "{radius: 2, center: [1, 2, 3]}}, {disc: {radius: 2, center: [1, 2, 3]}}]"},
+    {"YAML: one alias as a step and as a list",
+     "scene: [{box: {}, transform: &t {scale: 2}}, {box: {}, transform: [*t, *t]}, {box: {}, transform: *t}]",
+     "scene: [{box: {}, transform: {scale: 2}}, {box: {}, transform: {scale: 4}}, {box: {}, transform: "
+     "{scale: 2}}]"},
+    {"YAML: merge keys",
+     "scene: [{sphere: &s {radius: 2, center: [1, 1, 1]}}, {sphere: {<<: *s, radius: 3}}]",
      "scene: [{sphere: {radius: 2, center: [1, 1, 1]}}, {sphere: {radius: 3, center: [1, 1, 1]}}]"},
-    {"YAML: a merged object", "scene:\n- &a\n  sphere: {radius: 2}\n  transform: {scale: 2}\n- <<: *a\n  transform: {translate: [1, 0, 0]}\n",
+    {"YAML: a merged object",
+     "scene:\n- &a\n  sphere: {radius: 2}\n  transform: {scale: 2}\n- <<: *a\n  transform: {translate: [1, "
+     "0, 0]}\n",
      "scene: [{sphere: {radius: 4}}, {sphere: {radius: 2, center: [1, 0, 0]}}]"},
-    {"YAML: JSON", "{\"scene\": [{\"sphere\": {\"radius\": 2.0, \"center\": [1, 2e0, 3]}}]}", "scene:\n  - sphere:\n      radius: 2\n      center:\n        - 1\n        - 2\n        - 3\n"},
+    {"YAML: JSON", "{\"scene\": [{\"sphere\": {\"radius\": 2.0, \"center\": [1, 2e0, 3]}}]}",
+     "scene:\n  - sphere:\n      radius: 2\n      center:\n        - 1\n        - 2\n        - 3\n"},
 };
 
 static void check_pair(void **state) {
@@ -118,7 +164,8 @@ static void check_pair(void **state) {
     load_good(&a, row->a);
     load_good(&b, row->b);
     assert_int_equal(a.scene.primitives.count, b.scene.primitives.count);
-    for (uint32_t i = 0; i < a.scene.primitives.count; i++) assert_same_primitive(&a.scene.primitives, &b.scene.primitives, i);
+    for (uint32_t i = 0; i < a.scene.primitives.count; i++)
+        assert_same_primitive(&a.scene.primitives, &b.scene.primitives, i);
     unload(&a);
     unload(&b);
 }
@@ -135,17 +182,20 @@ static void check_revolution(void **state) {
     const struct revolution *row = *state;
     struct random r = random_begin();
     for (int i = 0; i < 300; i++) {
-        const vec3 from = random_vec3(&r, -5, 5), to = i % 10 ? random_vec3(&r, -5, 5) : (vec3){from.x, from.y, from.z + (i % 20 ? 1 : -2)};
+        const vec3 from = random_vec3(&r, -5, 5),
+                   to = i % 10 ? random_vec3(&r, -5, 5) : (vec3){from.x, from.y, from.z + (i % 20 ? 1 : -2)};
         const double radius = random_between(&r, 0.1, 3);
         char text[400];
-        snprintf(text, sizeof text, "scene: [{%s: {from: [%.17g, %.17g, %.17g], to: [%.17g, %.17g, %.17g], radius: %.17g}}]", row->name,
-                 from.x, from.y, from.z, to.x, to.y, to.z, radius);
+        snprintf(text, sizeof text,
+                 "scene: [{%s: {from: [%.17g, %.17g, %.17g], to: [%.17g, %.17g, %.17g], radius: %.17g}}]",
+                 row->name, from.x, from.y, from.z, to.x, to.y, to.z, radius);
         struct loaded l;
         load_good(&l, text);
         const affine map = l.scene.primitives.quadrics[0].world_from_object;
         assert_vec3_near(affine_point(&map, (vec3){0, 0, row->z_from}), from, 1e-13, "from");
         assert_vec3_near(affine_point(&map, (vec3){0, 0, row->z_to}), to, 1e-13, "to");
-        const vec3 x = affine_column(map, 0), y = affine_column(map, 1), axis = vec3_normalize(vec3_sub(to, from));
+        const vec3 x = affine_column(map, 0), y = affine_column(map, 1),
+                   axis = vec3_normalize(vec3_sub(to, from));
         assert_near(vec3_length(x), radius, 1e-14 * radius, "radius along x");
         assert_near(vec3_length(y), radius, 1e-14 * radius, "radius along y");
         assert_near(vec3_dot(x, y), 0, 1e-14, "x across y");
@@ -158,18 +208,23 @@ static void check_revolution(void **state) {
 
 static void planes_and_discs_face_along_their_normal(void **state) {
     (void)state;
-    const char *const forms[] = {"plane: {point: [1, 2, 3], normal: [%.17g, %.17g, %.17g]}", "disc: {center: [1, 2, 3], radius: 2, normal: [%.17g, %.17g, %.17g]}"};
+    const char *const forms[] = {"plane: {point: [1, 2, 3], normal: [%.17g, %.17g, %.17g]}",
+                                 "disc: {center: [1, 2, 3], radius: 2, normal: [%.17g, %.17g, %.17g]}"};
     struct random r = random_begin();
     for (int i = 0; i < 400; i++) {
-        const vec3 n = i == 0 ? (vec3){0, 0, -1} : i == 2 ? (vec3){0, 1e-200, 0} : vec3_scale(random_vec3(&r, -1, 1), 5);
+        const vec3 n = i == 0   ? (vec3){0, 0, -1}
+                       : i == 2 ? (vec3){0, 1e-200, 0}
+                                : vec3_scale(random_vec3(&r, -1, 1), 5);
         char shape[200], text[300];
         snprintf(shape, sizeof shape, forms[i % 2], n.x, n.y, n.z);
         snprintf(text, sizeof text, "scene: [{%s}]", shape);
         struct loaded l;
         load_good(&l, text);
         const struct flat *flat = &l.scene.primitives.flats[0];
-        assert_vec3_near(vec3_normalize(affine_normal(&flat->object_from_world, (vec3){0, 0, 1})), vec3_normalize(n), 1e-14, "normal");
-        assert_vec3_near(affine_point(&flat->world_from_object, (vec3){0, 0, 0}), (vec3){1, 2, 3}, 0, "point");
+        assert_vec3_near(vec3_normalize(affine_normal(&flat->object_from_world, (vec3){0, 0, 1})),
+                         vec3_normalize(n), 1e-14, "normal");
+        assert_vec3_near(affine_point(&flat->world_from_object, (vec3){0, 0, 0}), (vec3){1, 2, 3}, 0,
+                         "point");
         assert_near(vec3_length(affine_column(flat->world_from_object, 0)), i % 2 ? 2 : 1, 1e-14, "size");
         unload(&l);
     }
@@ -229,9 +284,11 @@ static void numbers_follow_the_file_through_the_kinds(void **state) {
 static void a_quadric_takes_its_coefficients(void **state) {
     (void)state;
     struct loaded l;
-    load_good(&l, "scene: [{quadric: {xx: 1, yy: 2, zz: 3, xy: 4, yz: 5, xz: 6, x: 7, y: 8, z: 9, constant: 10, open: true},\n"
+    load_good(&l, "scene: [{quadric: {xx: 1, yy: 2, zz: 3, xy: 4, yz: 5, xz: 6, x: 7, y: 8, z: 9, constant: "
+                  "10, open: true},\n"
                   "         bounds: {min: [-1, -2, -3], max: [1, 2, 3]}}, {quadric: {z: 1}}]");
-    const struct quadric_form *f = l.scene.primitives.quadrics[0].form, *g = l.scene.primitives.quadrics[1].form;
+    const struct quadric_form *f = l.scene.primitives.quadrics[0].form,
+                              *g = l.scene.primitives.quadrics[1].form;
     const double got[] = {f->xx, f->yy, f->zz, f->xy, f->yz, f->zx, f->x, f->y, f->z, f->constant};
     for (int i = 0; i < 10; i++) assert_true(8.0 * got[i] == i + 1);
     assert_true(f->open);
@@ -248,7 +305,8 @@ static void aliases_take_memory_once(void **state) {
     char text[3000] = "scene:\n- group: &a0 [{sphere: {}}]\n";
     for (int i = 1; i <= 5; i++) {
         sprintf(text + strlen(text), "- group: &a%d [", i);
-        for (int j = 0; j < 10; j++) sprintf(text + strlen(text), "{group: *a%d}%s", i - 1, j < 9 ? ", " : "]\n");
+        for (int j = 0; j < 10; j++)
+            sprintf(text + strlen(text), "{group: *a%d}%s", i - 1, j < 9 ? ", " : "]\n");
     }
     struct loaded l;
     load_good(&l, text);
@@ -270,7 +328,9 @@ static struct material_row {
     {"its own, by name", "[{sphere: {}, material: red}]", {1, 0, 0}},
     {"its own, written out", "[{sphere: {}, material: {diffuse: lime}}]", {0, 1, 0}},
     {"the group's", "[{group: [{sphere: {}}], material: red}]", {1, 0, 0}},
-    {"the group's, written out", "[{group: [{sphere: {}}, {box: {}}], material: {diffuse: lime}}]", {0, 1, 0}},
+    {"the group's, written out",
+     "[{group: [{sphere: {}}, {box: {}}], material: {diffuse: lime}}]",
+     {0, 1, 0}},
     {"its own before the group's", "[{group: [{sphere: {}, material: blue}], material: red}]", {0, 0, 1}},
     {"the inner group's", "[{group: [{group: [{sphere: {}}], material: blue}], material: red}]", {0, 0, 1}},
     {"the outer group's", "[{group: [{group: [{sphere: {}}]}], material: red}]", {1, 0, 0}},
@@ -281,7 +341,9 @@ static struct material_row {
 static void check_material(void **state) {
     const struct material_row *row = *state;
     char text[500];
-    snprintf(text, sizeof text, "materials: {red: {diffuse: red}, blue: &blue {diffuse: blue, index: 2}}\nscene: %s\n", row->scene);
+    snprintf(text, sizeof text,
+             "materials: {red: {diffuse: red}, blue: &blue {diffuse: blue, index: 2}}\nscene: %s\n",
+             row->scene);
     struct loaded l;
     load_good(&l, text);
     assert_vec3_near(diffuse_of(&l, 0), row->want, 0, "diffuse");
@@ -313,7 +375,8 @@ static void one_default_material_serves_all(void **state) {
     (void)state;
     struct loaded l, alone;
     load_good(&alone, "scene: [{sphere: {}}]");
-    load_good(&l, "materials: {red: {diffuse: red}}\nscene: [{box: {}, material: red}, {sphere: {}}, {group: [{cone: {}}]}]");
+    load_good(&l, "materials: {red: {diffuse: red}}\nscene: [{box: {}, material: red}, {sphere: {}}, {group: "
+                  "[{cone: {}}]}]");
     for (uint32_t i = 1; i < 3; i++) assert_vec3_near(diffuse_of(&l, i), diffuse_of(&alone, 0), 0, "default");
     unload(&l);
     unload(&alone);
@@ -329,8 +392,9 @@ static void one_default_material_serves_all(void **state) {
 static void an_alias_of_a_named_material_is_like_it(void **state) {
     (void)state;
     struct loaded l;
-    load_good(&l, "materials: {red: &r {diffuse: red}, also: *r}\n"
-                  "scene: [{sphere: {}, material: *r}, {box: {}, material: red}, {cone: {}, material: also}]");
+    load_good(&l,
+              "materials: {red: &r {diffuse: red}, also: *r}\n"
+              "scene: [{sphere: {}, material: *r}, {box: {}, material: red}, {cone: {}, material: also}]");
     const struct primitive_info *info = l.scene.primitives.info;
     assert_int_not_equal(info[1].material, info[2].material);
     for (uint32_t i = 0; i < 3; i++) assert_vec3_near(diffuse_of(&l, i), (vec3){1, 0, 0}, 0, "diffuse");
@@ -340,7 +404,8 @@ static void an_alias_of_a_named_material_is_like_it(void **state) {
 static void materials_have_all_their_values(void **state) {
     (void)state;
     struct loaded l;
-    load_good(&l, "scene: [{sphere: {}, material: {ambient: [0.1, 0, 0], diffuse: [0, 0.2, 0], specular: [0, 0, 0.3], shininess: 7, "
+    load_good(&l, "scene: [{sphere: {}, material: {ambient: [0.1, 0, 0], diffuse: [0, 0.2, 0], specular: [0, "
+                  "0, 0.3], shininess: 7, "
                   "reflection: [0.4, 0, 0], refraction: 0.5, index: 1.5}}]");
     const struct material *m = &l.scene.materials[0];
     assert_vec3_near(m->ambient, (vec3){0.1, 0, 0}, 0, "ambient");
@@ -357,10 +422,13 @@ static void materials_have_all_their_values(void **state) {
 static void settings_are_as_written(void **state) {
     (void)state;
     struct loaded l;
-    load_good(&l, "image: {size: [7, 9], samples: 3, bits: 16, encoding: linear, background: [0.1, 0.2, 0.3]}\n"
-                  "render: {shading: signature, depth: 6, shadow: 0.5, two_sided: false, highlight: always}\n"
-                  "camera: {eye: [1, 2, 3], look_at: [4, 5, 6], up: [0, 0, 1], projection: orthographic, height: 8}\n"
-                  "lights: [{point: {at: [1, 2, 3], color: [4, 5, 6]}}, {ambient: {color: gray}}]\nscene: [{sphere: {}}]\n");
+    load_good(
+        &l,
+        "image: {size: [7, 9], samples: 3, bits: 16, encoding: linear, background: [0.1, 0.2, 0.3]}\n"
+        "render: {shading: signature, depth: 6, shadow: 0.5, two_sided: false, highlight: always}\n"
+        "camera: {eye: [1, 2, 3], look_at: [4, 5, 6], up: [0, 0, 1], projection: orthographic, height: 8}\n"
+        "lights: [{point: {at: [1, 2, 3], color: [4, 5, 6]}}, {ambient: {color: gray}}]\nscene: [{sphere: "
+        "{}}]\n");
     const struct monge_settings *s = &l.scene.settings;
     const struct camera *c = &l.scene.camera;
     assert_int_equal(s->width, 7);
@@ -427,26 +495,42 @@ static void defaults_are_those_of_the_grammar(void **state) {
         const char *kind, *key;
         double got;
     } numbers[] = {
-        {"image", "size", s->width}, {"image", "samples", s->samples}, {"image", "bits", s->bits}, {"render", "depth", s->depth},
-        {"render", "shadow", s->shadow}, {"camera", "fov", l.scene.camera.fov_deg}, {"material", "ambient", m->ambient.x},
-        {"material", "specular", m->specular.y}, {"material", "shininess", m->shininess}, {"material", "reflection", m->reflection.z},
-        {"material", "refraction", m->refraction.x}, {"material", "index", m->index}, {"sphere", "radius", l.scene.primitives.spheres[0].radius},
+        {"image", "size", s->width},
+        {"image", "samples", s->samples},
+        {"image", "bits", s->bits},
+        {"render", "depth", s->depth},
+        {"render", "shadow", s->shadow},
+        {"camera", "fov", l.scene.camera.fov_deg},
+        {"material", "ambient", m->ambient.x},
+        {"material", "specular", m->specular.y},
+        {"material", "shininess", m->shininess},
+        {"material", "reflection", m->reflection.z},
+        {"material", "refraction", m->refraction.x},
+        {"material", "index", m->index},
+        {"sphere", "radius", l.scene.primitives.spheres[0].radius},
         {"sphere", "center", l.scene.primitives.spheres[0].center.x},
     };
     for (size_t i = 0; i < COUNT(numbers); i++)
-        assert_near(numbers[i].got, strtod(grammar_default(root, numbers[i].kind, numbers[i].key), NULL), 0, numbers[i].key);
+        assert_near(numbers[i].got, strtod(grammar_default(root, numbers[i].kind, numbers[i].key), NULL), 0,
+                    numbers[i].key);
     const struct word_row {
         const char *kind, *key, *got;
     } words[] = {
         {"image", "encoding", s->encoding == MONGE_ENCODING_SRGB ? "srgb" : "linear"},
-        {"render", "shading", s->shading == MONGE_SHADING_PHONG ? "phong" : s->shading == MONGE_SHADING_DIFFUSE ? "diffuse" : "signature"},
+        {"render", "shading",
+         s->shading == MONGE_SHADING_PHONG     ? "phong"
+         : s->shading == MONGE_SHADING_DIFFUSE ? "diffuse"
+                                               : "signature"},
         {"render", "two_sided", l.scene.two_sided ? "true" : "false"},
         {"render", "highlight", l.scene.highlight_always ? "always" : "lit"},
-        {"camera", "projection", l.scene.camera.projection == CAMERA_PERSPECTIVE ? "perspective" : "orthographic"},
+        {"camera", "projection",
+         l.scene.camera.projection == CAMERA_PERSPECTIVE ? "perspective" : "orthographic"},
     };
-    for (size_t i = 0; i < COUNT(words); i++) assert_string_equal(words[i].got, grammar_default(root, words[i].kind, words[i].key));
+    for (size_t i = 0; i < COUNT(words); i++)
+        assert_string_equal(words[i].got, grammar_default(root, words[i].kind, words[i].key));
     assert_true(l.scene.default_lights && l.scene.light_count == 0);
-    assert_false(l.scene.camera.has_eye || l.scene.camera.has_look_at || l.scene.camera.has_up || l.scene.camera.has_height);
+    assert_false(l.scene.camera.has_eye || l.scene.camera.has_look_at || l.scene.camera.has_up ||
+                 l.scene.camera.has_height);
     assert_vec3_near(l.scene.camera.up, (vec3){0, 1, 0}, 0, "up");
 
     unload(&l);
@@ -458,10 +542,13 @@ static void empty_mappings_change_nothing(void **state) {
     (void)state;
     struct loaded a, b;
     load_good(&a, "scene: [{sphere: {}, material: {}}]");
-    load_good(&b, "image: {}\nrender: {}\ncamera: {}\nmaterials: {}\nscene: [{sphere: {}, material: {}, transform: []}]");
+    load_good(&b, "image: {}\nrender: {}\ncamera: {}\nmaterials: {}\nscene: [{sphere: {}, material: {}, "
+                  "transform: []}]");
     const struct monge_settings *s = &a.scene.settings, *t = &b.scene.settings;
-    const double x[] = {s->width, s->height, s->samples, s->bits, s->encoding, s->shading, s->depth, s->shadow};
-    const double y[] = {t->width, t->height, t->samples, t->bits, t->encoding, t->shading, t->depth, t->shadow};
+    const double x[] = {s->width,    s->height,  s->samples, s->bits,
+                        s->encoding, s->shading, s->depth,   s->shadow};
+    const double y[] = {t->width,    t->height,  t->samples, t->bits,
+                        t->encoding, t->shading, t->depth,   t->shadow};
     assert_memory_equal(x, y, sizeof x);
     struct hash ha, hb;
     hash_begin(&ha);
@@ -480,38 +567,68 @@ static struct verdict {
     unsigned errors, warnings;
 } verdicts[] = {
     {"verdict: a flat scale", "scene: [{sphere: {}, transform: {scale: [1, 0, 1]}}]", 1, 0},
-    {"verdict: a flat step and a flat group", "scene: [{group: [{sphere: {}, transform: {scale: 0}}], transform: [{scale: 0}, {shear: {xy: 1, yx: 1}}]}]", 3, 0},
-    {"verdict: flat only together", "scene: [{group: [{sphere: {}, transform: {scale: 1e-60}}], transform: {scale: 1e-60}}]", 1, 0},
-    {"verdict: out of all bounds together", "scene: [{group: [{group: [{sphere: {}, transform: {scale: 1e90}}], transform: {scale: 1e90}}, {sphere: {}, transform: {translate: [1e90, 0, 0]}}], transform: {scale: 1e90}}]", 2, 0},
-    {"verdict: infinite times zero", "scene: [{group: [{group: [{group: [{group: [{sphere: {}, transform: {translate: [1e90, 0, 0]}}], transform: {scale: [1e90, 1, 1]}}], transform: {scale: [1e90, 1, 1]}}], transform: {scale: [1e90, 1, 1]}}], transform: {rotate: {z: 90}}}]", 1, 0},
+    {"verdict: a flat step and a flat group",
+     "scene: [{group: [{sphere: {}, transform: {scale: 0}}], transform: [{scale: 0}, {shear: {xy: 1, yx: "
+     "1}}]}]",
+     3, 0},
+    {"verdict: flat only together",
+     "scene: [{group: [{sphere: {}, transform: {scale: 1e-60}}], transform: {scale: 1e-60}}]", 1, 0},
+    {"verdict: out of all bounds together",
+     "scene: [{group: [{group: [{sphere: {}, transform: {scale: 1e90}}], transform: {scale: 1e90}}, {sphere: "
+     "{}, transform: {translate: [1e90, 0, 0]}}], transform: {scale: 1e90}}]",
+     2, 0},
+    {"verdict: infinite times zero",
+     "scene: [{group: [{group: [{group: [{group: [{sphere: {}, transform: {translate: [1e90, 0, 0]}}], "
+     "transform: {scale: [1e90, 1, 1]}}], transform: {scale: [1e90, 1, 1]}}], transform: {scale: [1e90, 1, "
+     "1]}}], transform: {rotate: {z: 90}}}]",
+     1, 0},
     {"verdict: look_at is eye", "camera: {eye: [1, 2, 3], look_at: [1, 2, 3]}\nscene: [{sphere: {}}]", 1, 0},
-    {"verdict: up along the view", "camera: {eye: [0, 0, 5], look_at: [0, 0, 0], up: [0, 0, 2]}\nscene: [{sphere: {}}]", 1, 0},
-    {"verdict: up against the view", "camera: {direction: [0, 0, -1], up: [0, 0, 2]}\nscene: [{sphere: {}}]", 1, 0},
-    {"verdict: a view straight down needs no up", "camera: {direction: [0, -1, 0]}\nscene: [{sphere: {}}]", 0, 0},
+    {"verdict: up along the view",
+     "camera: {eye: [0, 0, 5], look_at: [0, 0, 0], up: [0, 0, 2]}\nscene: [{sphere: {}}]", 1, 0},
+    {"verdict: up against the view", "camera: {direction: [0, 0, -1], up: [0, 0, 2]}\nscene: [{sphere: {}}]",
+     1, 0},
+    {"verdict: a view straight down needs no up", "camera: {direction: [0, -1, 0]}\nscene: [{sphere: {}}]", 0,
+     0},
     {"verdict: height in perspective", "camera: {height: 3}\nscene: [{sphere: {}}]", 1, 0},
-    {"verdict: fov in an orthographic view", "camera: {projection: orthographic, fov: 30}\nscene: [{sphere: {}}]", 1, 0},
+    {"verdict: fov in an orthographic view",
+     "camera: {projection: orthographic, fov: 30}\nscene: [{sphere: {}}]", 1, 0},
     {"verdict: too many pixels", "image: {size: [65535, 65535]}\nscene: [{sphere: {}}]", 1, 0},
-    {"verdict: reflection and refraction over 1", "scene: [{sphere: {}, material: {reflection: 0.6, refraction: 0.6}}]", 1, 0},
-    {"verdict: in a named material", "materials: {m: {reflection: 0.6, refraction: [0, 0, 0.6]}}\nscene: [{sphere: {}, material: m}]", 1, 0},
+    {"verdict: reflection and refraction over 1",
+     "scene: [{sphere: {}, material: {reflection: 0.6, refraction: 0.6}}]", 1, 0},
+    {"verdict: in a named material",
+     "materials: {m: {reflection: 0.6, refraction: [0, 0, 0.6]}}\nscene: [{sphere: {}, material: m}]", 1, 0},
     {"verdict: together 1", "scene: [{sphere: {}, material: {reflection: 0.9, refraction: 0.1}}]", 0, 0},
     {"verdict: a box without an inside", "scene: [{box: {min: [0, 0, 0], max: [1, 1, 0]}}]", 1, 0},
-    {"verdict: bounds without an inside", "scene: [{quadric: {xx: 1}, bounds: {min: [1, 0, 0], max: [0, 1, 1]}}]", 1, 0},
-    {"verdict: bounds of a sphere", "scene: [{sphere: {}, bounds: {min: [-1, -1, -1], max: [1, 1, 1]}}]", 1, 0},
-    {"verdict: bounds of a group", "scene: [{group: [{sphere: {}}], bounds: {min: [-1, -1, -1], max: [1, 1, 1]}}]", 1, 0},
+    {"verdict: bounds without an inside",
+     "scene: [{quadric: {xx: 1}, bounds: {min: [1, 0, 0], max: [0, 1, 1]}}]", 1, 0},
+    {"verdict: bounds of a sphere", "scene: [{sphere: {}, bounds: {min: [-1, -1, -1], max: [1, 1, 1]}}]", 1,
+     0},
+    {"verdict: bounds of a group",
+     "scene: [{group: [{sphere: {}}], bounds: {min: [-1, -1, -1], max: [1, 1, 1]}}]", 1, 0},
     {"verdict: a cylinder without a length", "scene: [{cylinder: {from: [1, 1, 1], to: [1, 1, 1]}}]", 1, 0},
     {"verdict: an empty quadric", "scene: [{quadric: {constant: 1}}]", 1, 0},
-    {"verdict: radians", "scene: [{sphere: {}, transform: [{rotate: {x: 1.5708}}, {rotate: {axis: [1, 0, 0], angle: -3.1416}}]}]", 0, 2},
-    {"verdict: degrees", "scene: [{sphere: {}, transform: [{rotate: {x: 1.5}}, {rotate: {x: 3}}, {rotate: {x: 90}}]}]", 0, 0},
+    {"verdict: radians",
+     "scene: [{sphere: {}, transform: [{rotate: {x: 1.5708}}, {rotate: {axis: [1, 0, 0], angle: -3.1416}}]}]",
+     0, 2},
+    {"verdict: degrees",
+     "scene: [{sphere: {}, transform: [{rotate: {x: 1.5}}, {rotate: {x: 3}}, {rotate: {x: 90}}]}]", 0, 0},
     {"verdict: no objects", "scene: []", 0, 1},
     {"verdict: no objects but groups", "scene: [{group: []}]", 0, 1},
     {"verdict: no light", "lights: []\nscene: [{sphere: {}}]", 0, 1},
     {"verdict: no light, unlit", "lights: []\nrender: {shading: signature}\nscene: [{sphere: {}}]", 0, 0},
     {"verdict: no light but mirrors", "lights: []\nscene: [{sphere: {}, material: {reflection: 1}}]", 0, 0},
-    {"verdict: black lights", "lights: [{point: {at: [0, 5, 0], color: black}}, {ambient: {color: black}}]\nscene: [{sphere: {}}]", 0, 1},
-    {"verdict: ambient light that nothing gives back", "lights: [{ambient: {}}]\nscene: [{sphere: {}, material: {diffuse: red}}]", 0, 1},
-    {"verdict: ambient light that something gives back", "lights: [{ambient: {}}]\nscene: [{sphere: {}, material: {diffuse: red}}, {box: {}, material: {ambient: red}}]", 0, 0},
+    {"verdict: black lights",
+     "lights: [{point: {at: [0, 5, 0], color: black}}, {ambient: {color: black}}]\nscene: [{sphere: {}}]", 0,
+     1},
+    {"verdict: ambient light that nothing gives back",
+     "lights: [{ambient: {}}]\nscene: [{sphere: {}, material: {diffuse: red}}]", 0, 1},
+    {"verdict: ambient light that something gives back",
+     "lights: [{ambient: {}}]\nscene: [{sphere: {}, material: {diffuse: red}}, {box: {}, material: {ambient: "
+     "red}}]",
+     0, 0},
     {"verdict: no warning beside an error", "lights: []\nscene: [{sphere: {r: 1}}]", 1, 0},
-    {"verdict: errors of lang and of scene in one run", "scene: [{sphere: {radius: x}}, {box: {}, transform: {scale: 0}}]", 2, 0},
+    {"verdict: errors of lang and of scene in one run",
+     "scene: [{sphere: {radius: x}}, {box: {}, transform: {scale: 0}}]", 2, 0},
 };
 
 static void check_verdict(void **state) {
@@ -553,12 +670,14 @@ static const char *const hash_base =
     "render: {two_sided: true, highlight: lit}\n"
     "lights: [{ambient: {color: '#333'}}, {point: {at: [1, 2, 3], color: '#444'}}]\n"
     "materials:\n"
-    "  gold: {ambient: '#111', diffuse: gold, specular: '#eee', shininess: 8, reflection: 0.2, refraction: 0.1, index: 1.5}\n"
+    "  gold: {ambient: '#111', diffuse: gold, specular: '#eee', shininess: 8, reflection: 0.2, refraction: "
+    "0.1, index: 1.5}\n"
     "  jade: {diffuse: green}\n"
     "scene:\n"
     "  - {sphere: {center: [1, 2, 3], radius: 0.5}, material: gold}\n"
     "  - {disc: {center: [1, 2, 4], radius: 0.25}, material: jade}\n"
-    "  - {cylinder: {from: [3, 3, 3], to: [4, 4, 4], open: false}, material: gold, transform: {scale: [1, 2, 3]}}\n"
+    "  - {cylinder: {from: [3, 3, 3], to: [4, 4, 4], open: false}, material: gold, transform: {scale: [1, 2, "
+    "3]}}\n"
     "  - {quadric: {xx: 1, constant: -1}, bounds: {min: [-1, -1, -1], max: [1, 1, 1]}, material: jade}\n";
 
 /* One replacement in the text above. */
@@ -566,29 +685,68 @@ static struct change {
     const char *from, *to;
     bool same;
 } changes[] = {
-    {"bottom: '#111'", "bottom: '#112'", false}, {"top: '#222'", "top: '#223'", false}, {"eye: [0, 0, 5]", "eye: [0, 0, 6]", false},
-    {"look_at: [0, 0, 1]", "look_at: [0, 1, 1]", false}, {"look_at: [0, 0, 1]", "direction: [0, 0, -1]", false}, {"up: [0, 1, 0]", "up: [1, 1, 0]", false},
-    {"fov: 40", "fov: 41", false}, {"fov: 40", "projection: orthographic", false}, {"two_sided: true", "two_sided: false", false}, {"highlight: lit", "highlight: always", false},
-    {"color: '#333'", "color: '#334'", false}, {"at: [1, 2, 3]", "at: [1, 2, 4]", false}, {"color: '#444'", "color: '#443'", false},
+    {"bottom: '#111'", "bottom: '#112'", false},
+    {"top: '#222'", "top: '#223'", false},
+    {"eye: [0, 0, 5]", "eye: [0, 0, 6]", false},
+    {"look_at: [0, 0, 1]", "look_at: [0, 1, 1]", false},
+    {"look_at: [0, 0, 1]", "direction: [0, 0, -1]", false},
+    {"up: [0, 1, 0]", "up: [1, 1, 0]", false},
+    {"fov: 40", "fov: 41", false},
+    {"fov: 40", "projection: orthographic", false},
+    {"two_sided: true", "two_sided: false", false},
+    {"highlight: lit", "highlight: always", false},
+    {"color: '#333'", "color: '#334'", false},
+    {"at: [1, 2, 3]", "at: [1, 2, 4]", false},
+    {"color: '#444'", "color: '#443'", false},
     {"lights: [{ambient: {color: '#333'}}, {point: {at: [1, 2, 3], color: '#444'}}]", "lights: []", false},
     {"lights: [{ambient: {color: '#333'}}, {point: {at: [1, 2, 3], color: '#444'}}]", "", false},
-    {"lights: [", "lights: [{ambient: {color: black}}, ", false}, {"ambient: '#111'", "ambient: '#112'", false}, {"diffuse: gold", "diffuse: yellow", false},
-    {"specular: '#eee'", "specular: '#eef'", false}, {"shininess: 8", "shininess: 9", false}, {"reflection: 0.2", "reflection: 0.25", false},
-    {"refraction: 0.1", "refraction: 0.2", false}, {"index: 1.5", "index: 1.4", false}, {"center: [1, 2, 3]", "center: [1, 2, 3.5]", false},
-    {"radius: 0.5", "radius: 0.75", false}, {"radius: 0.25", "radius: 0.5", false}, {"disc:", "sphere:", false}, {"disc: {center: [1, 2, 4], radius: 0.25}", "square: {center: [1, 2, 4]}", false},
-    {"from: [3, 3, 3]", "from: [3, 3, 2]", false}, {"open: false", "open: true", false}, {"scale: [1, 2, 3]", "scale: [1, 3, 2]", false},
-    {"xx: 1", "yy: 1", false}, {"constant: -1", "constant: -2", false}, {"min: [-1, -1, -1]", "min: [-2, -1, -1]", false}, {"max: [1, 1, 1]", "max: [1, 2, 1]", false},
-    {"bounds: {min: [-1, -1, -1], max: [1, 1, 1]}, ", "", false}, {"radius: 0.5}, material: gold", "radius: 0.5}, material: jade", false},
-    {"radius: 0.5}, material: gold", "radius: 0.5}", false}, {"constant: -1}", "constant: -1, open: true}", false}, {"- {sphere: {center: [1, 2, 3], radius: 0.5}, material: gold}", "", false},
+    {"lights: [", "lights: [{ambient: {color: black}}, ", false},
+    {"ambient: '#111'", "ambient: '#112'", false},
+    {"diffuse: gold", "diffuse: yellow", false},
+    {"specular: '#eee'", "specular: '#eef'", false},
+    {"shininess: 8", "shininess: 9", false},
+    {"reflection: 0.2", "reflection: 0.25", false},
+    {"refraction: 0.1", "refraction: 0.2", false},
+    {"index: 1.5", "index: 1.4", false},
+    {"center: [1, 2, 3]", "center: [1, 2, 3.5]", false},
+    {"radius: 0.5", "radius: 0.75", false},
+    {"radius: 0.25", "radius: 0.5", false},
+    {"disc:", "sphere:", false},
+    {"disc: {center: [1, 2, 4], radius: 0.25}", "square: {center: [1, 2, 4]}", false},
+    {"from: [3, 3, 3]", "from: [3, 3, 2]", false},
+    {"open: false", "open: true", false},
+    {"scale: [1, 2, 3]", "scale: [1, 3, 2]", false},
+    {"xx: 1", "yy: 1", false},
+    {"constant: -1", "constant: -2", false},
+    {"min: [-1, -1, -1]", "min: [-2, -1, -1]", false},
+    {"max: [1, 1, 1]", "max: [1, 2, 1]", false},
+    {"bounds: {min: [-1, -1, -1], max: [1, 1, 1]}, ", "", false},
+    {"radius: 0.5}, material: gold", "radius: 0.5}, material: jade", false},
+    {"radius: 0.5}, material: gold", "radius: 0.5}", false},
+    {"constant: -1}", "constant: -1, open: true}", false},
+    {"- {sphere: {center: [1, 2, 3], radius: 0.5}, material: gold}", "", false},
 
-    {"render:", "# a comment\nrender:", true}, {"fov: 40", "fov:   40.0", true}, {"fov: 40", "fov: 4e1", true}, {"eye: [0, 0, 5]", "eye: [-0, 0.0, 5]", true},
-    {"two_sided: true, highlight: lit", "highlight: lit, two_sided: true", true}, {"two_sided: true, highlight: lit", "", true}, {"render: {two_sided: true, highlight: lit}\n", "", true},
-    {"diffuse: gold", "diffuse: '#ffd700'", true}, {"diffuse: green", "diffuse: '#008000'", true}, {"radius: 0.5}, material: gold", "radius: 0.5}, name: ball, material: gold", true},
-    {"materials:\n", "materials:\n  unused: {diffuse: red}\n", true}, {"  jade: {diffuse: green}\n", "", true /* defined below, see check_change */},
-    {"center: [1, 2, 3], radius: 0.5", "radius: 0.5, center: [1, 2, 3]", true}, {"scene:\n", "scene:\n  - {group: []}\n", true},
-    {"  - {sphere: {center: [1, 2, 3], radius: 0.5}, material: gold}\n", "  - group: [{sphere: {center: [1, 2, 3], radius: 0.5}}]\n    material: gold\n", true},
-    {"camera:", "camera: &c", true}, {"center: [1, 2, 3]", "center: &x [1, 2, 3]", true}, {"open: false", "radius: 1", true},
-    {"  jade: {diffuse: green}\n", "  jade: {<<: {diffuse: green}}\n", true}, {"scale: [1, 2, 3]", "matrix: [[1, 0, 0, 0], [0, 2, 0, 0], [0, 0, 3, 0]]", true},
+    {"render:", "# a comment\nrender:", true},
+    {"fov: 40", "fov:   40.0", true},
+    {"fov: 40", "fov: 4e1", true},
+    {"eye: [0, 0, 5]", "eye: [-0, 0.0, 5]", true},
+    {"two_sided: true, highlight: lit", "highlight: lit, two_sided: true", true},
+    {"two_sided: true, highlight: lit", "", true},
+    {"render: {two_sided: true, highlight: lit}\n", "", true},
+    {"diffuse: gold", "diffuse: '#ffd700'", true},
+    {"diffuse: green", "diffuse: '#008000'", true},
+    {"radius: 0.5}, material: gold", "radius: 0.5}, name: ball, material: gold", true},
+    {"materials:\n", "materials:\n  unused: {diffuse: red}\n", true},
+    {"  jade: {diffuse: green}\n", "", true /* defined below, see check_change */},
+    {"center: [1, 2, 3], radius: 0.5", "radius: 0.5, center: [1, 2, 3]", true},
+    {"scene:\n", "scene:\n  - {group: []}\n", true},
+    {"  - {sphere: {center: [1, 2, 3], radius: 0.5}, material: gold}\n",
+     "  - group: [{sphere: {center: [1, 2, 3], radius: 0.5}}]\n    material: gold\n", true},
+    {"camera:", "camera: &c", true},
+    {"center: [1, 2, 3]", "center: &x [1, 2, 3]", true},
+    {"open: false", "radius: 1", true},
+    {"  jade: {diffuse: green}\n", "  jade: {<<: {diffuse: green}}\n", true},
+    {"scale: [1, 2, 3]", "matrix: [[1, 0, 0, 0], [0, 2, 0, 0], [0, 0, 3, 0]]", true},
 };
 
 static void check_change(void **state) {
@@ -596,7 +754,8 @@ static void check_change(void **state) {
     char text[3000];
     const char *at = strstr(hash_base, row->from);
     assert_non_null(at);
-    snprintf(text, sizeof text, "%.*s%s%s", (int)(at - hash_base), hash_base, row->to, at + strlen(row->from));
+    snprintf(text, sizeof text, "%.*s%s%s", (int)(at - hash_base), hash_base, row->to,
+             at + strlen(row->from));
     if (strstr(row->from, "jade") && !*row->to) { /* the other order of the materials */
         char *gold = strstr(text, "  gold:");
         memmove(gold + strlen(row->from), gold, strlen(gold) + 1);
@@ -609,12 +768,17 @@ static void check_change(void **state) {
 static struct equal_hash {
     const char *name, *a, *b;
 } equal_hashes[] = {
-    {"equal hash: an alias and a copy", "scene: [{sphere: &s {radius: 2}, material: &m {diffuse: red}}, {sphere: *s, material: *m}]",
-     "scene: [{sphere: {radius: 2}, material: {diffuse: red}}, {sphere: {radius: 2}, material: {diffuse: red}}]"},
-    {"equal hash: a name and what it stands for", "materials: {red: {diffuse: red}}\nscene: [{sphere: {}, material: red}, {box: {}, material: red}]",
+    {"equal hash: an alias and a copy",
+     "scene: [{sphere: &s {radius: 2}, material: &m {diffuse: red}}, {sphere: *s, material: *m}]",
+     "scene: [{sphere: {radius: 2}, material: {diffuse: red}}, {sphere: {radius: 2}, material: {diffuse: "
+     "red}}]"},
+    {"equal hash: a name and what it stands for",
+     "materials: {red: {diffuse: red}}\nscene: [{sphere: {}, material: red}, {box: {}, material: red}]",
      "scene: [{sphere: {}, material: {diffuse: red}}, {box: {}, material: {diffuse: red}}]"},
-    {"equal hash: block and flow", "scene:\n  - sphere:\n      radius: 2\n", "{\"scene\": [{\"sphere\": {\"radius\": 2}}]}"},
-    {"equal hash: the default written out", "scene: [{sphere: {}}]", "scene: [{sphere: {radius: 1, center: [0, 0, 0]}}]"},
+    {"equal hash: block and flow", "scene:\n  - sphere:\n      radius: 2\n",
+     "{\"scene\": [{\"sphere\": {\"radius\": 2}}]}"},
+    {"equal hash: the default written out", "scene: [{sphere: {}}]",
+     "scene: [{sphere: {radius: 1, center: [0, 0, 0]}}]"},
 };
 
 static void check_equal_hash(void **state) {
@@ -623,12 +787,14 @@ static void check_equal_hash(void **state) {
     assert_memory_equal(&a, &b, sizeof a);
 }
 
-#define ROWS(table, check) \
-    for (size_t i = 0; i < COUNT(table); i++) tests[n++] = (struct CMUnitTest){table[i].name, check, NULL, NULL, &table[i]}
+#define ROWS(table, check)                                                                                   \
+    for (size_t i = 0; i < COUNT(table); i++) tests[n++] = (struct CMUnitTest) {                             \
+            table[i].name, check, NULL, NULL, &table[i]                                                      \
+        }
 
 int main(void) {
-    struct CMUnitTest tests[COUNT(pairs) + COUNT(revolutions) + COUNT(kinds) + COUNT(material_rows) + COUNT(diffuse_rows) + COUNT(verdicts) +
-                            COUNT(changes) + COUNT(equal_hashes)];
+    struct CMUnitTest tests[COUNT(pairs) + COUNT(revolutions) + COUNT(kinds) + COUNT(material_rows) +
+                            COUNT(diffuse_rows) + COUNT(verdicts) + COUNT(changes) + COUNT(equal_hashes)];
     char names[COUNT(changes)][100];
     size_t n = 0;
     ROWS(pairs, check_pair);
@@ -658,5 +824,6 @@ int main(void) {
         cmocka_unit_test(empty_mappings_change_nothing),
         cmocka_unit_test(errors_of_an_earlier_scene_do_not_stop_this_one),
     };
-    return cmocka_run_group_tests_name("rows", tests, NULL, NULL) + cmocka_run_group_tests_name("scene", others, NULL, NULL);
+    return cmocka_run_group_tests_name("rows", tests, NULL, NULL) +
+           cmocka_run_group_tests_name("scene", others, NULL, NULL);
 }

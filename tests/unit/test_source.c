@@ -23,10 +23,22 @@ static struct line {
     {"line: carriage return and line feed", "ab\r\ncd\r\n", 1, "cd"},
     {"line: carriage return alone", "ab\rcd\ref", 2, "ef"},
     {"line: line feed and carriage return are two", "ab\n\rcd", 2, "cd"},
-    {"line: next line (U+0085)", "ab\xc2\x85" "cd", 1, "cd"},
-    {"line: line separator (U+2028)", "ab\xe2\x80\xa8" "cd", 1, "cd"},
-    {"line: paragraph separator (U+2029)", "ab\xe2\x80\xa9" "cd", 1, "cd"},
-    {"line: a dash (U+2014) breaks nothing", "ab\xe2\x80\x94" "cd\nef", 1, "ef"},
+    {"line: next line (U+0085)",
+     "ab\xc2\x85"
+     "cd",
+     1, "cd"},
+    {"line: line separator (U+2028)",
+     "ab\xe2\x80\xa8"
+     "cd",
+     1, "cd"},
+    {"line: paragraph separator (U+2029)",
+     "ab\xe2\x80\xa9"
+     "cd",
+     1, "cd"},
+    {"line: a dash (U+2014) breaks nothing",
+     "ab\xe2\x80\x94"
+     "cd\nef",
+     1, "ef"},
     {"line: an umlaut breaks nothing", "a\xc3\x85z\nef", 0, "a\xc3\x85z"},
     {"line: half a break at the end", "ab\xe2\x80", 0, "ab\xe2\x80"},
 };
@@ -46,9 +58,12 @@ static struct offset {
     uint32_t line, column;
     size_t want;
 } offsets[] = {
-    {"offset: the beginning", "ab\ncd", 0, 0, 0},      {"offset: within a line", "ab\ncd", 1, 1, 4},
-    {"offset: end of a line", "ab\ncd", 0, 2, 2},      {"offset: past the end of a line", "ab\ncd", 0, 7, 2},
-    {"offset: past the end", "ab\ncd", 5, 5, 5},       {"offset: columns count characters", "\xc3\xbc\xe7\x90\x83x", 0, 2, 5},
+    {"offset: the beginning", "ab\ncd", 0, 0, 0},
+    {"offset: within a line", "ab\ncd", 1, 1, 4},
+    {"offset: end of a line", "ab\ncd", 0, 2, 2},
+    {"offset: past the end of a line", "ab\ncd", 0, 7, 2},
+    {"offset: past the end", "ab\ncd", 5, 5, 5},
+    {"offset: columns count characters", "\xc3\xbc\xe7\x90\x83x", 0, 2, 5},
     {"offset: stray bytes belong to the character before", "a\x80\x80z", 0, 1, 3},
 };
 
@@ -98,7 +113,8 @@ static void check_level(void **state) {
     const struct source source = source_of(row->text);
     struct source_level found[SOURCE_MAX_LEVELS];
     char text[300];
-    const int count = row->line ? source_open_levels(&source, row->line, found) : source_line_levels(&source, 0, found);
+    const int count =
+        row->line ? source_open_levels(&source, row->line, found) : source_line_levels(&source, 0, found);
     write_levels(found, count, text);
     assert_string_equal(text, row->want);
 }
@@ -116,9 +132,12 @@ static void more_levels_than_are_kept(void **state) {
 int main(void) {
     struct CMUnitTest tests[COUNT(lines) + COUNT(offsets) + COUNT(levels) + 1];
     size_t n = 0;
-    for (size_t i = 0; i < COUNT(lines); i++) tests[n++] = (struct CMUnitTest){lines[i].name, check_line, NULL, NULL, &lines[i]};
-    for (size_t i = 0; i < COUNT(offsets); i++) tests[n++] = (struct CMUnitTest){offsets[i].name, check_offset, NULL, NULL, &offsets[i]};
-    for (size_t i = 0; i < COUNT(levels); i++) tests[n++] = (struct CMUnitTest){levels[i].name, check_level, NULL, NULL, &levels[i]};
+    for (size_t i = 0; i < COUNT(lines); i++)
+        tests[n++] = (struct CMUnitTest){lines[i].name, check_line, NULL, NULL, &lines[i]};
+    for (size_t i = 0; i < COUNT(offsets); i++)
+        tests[n++] = (struct CMUnitTest){offsets[i].name, check_offset, NULL, NULL, &offsets[i]};
+    for (size_t i = 0; i < COUNT(levels); i++)
+        tests[n++] = (struct CMUnitTest){levels[i].name, check_level, NULL, NULL, &levels[i]};
     tests[n++] = (struct CMUnitTest)cmocka_unit_test(more_levels_than_are_kept);
     return cmocka_run_group_tests_name("source", tests, NULL, NULL);
 }

@@ -11,7 +11,8 @@ static bool same(char a, char b) { return lower(a) == lower(b); }
 /* Optimal string alignment, as it is defined: by all ways to begin. */
 static unsigned distance_by_definition(const char *a, const char *b) {
     if (!*a || !*b) return (unsigned)(strlen(a) + strlen(b));
-    const unsigned removed = distance_by_definition(a + 1, b) + 1, added = distance_by_definition(a, b + 1) + 1;
+    const unsigned removed = distance_by_definition(a + 1, b) + 1,
+                   added = distance_by_definition(a, b + 1) + 1;
     unsigned best = distance_by_definition(a + 1, b + 1) + !same(*a, *b);
     if (removed < best) best = removed;
     if (added < best) best = added;
@@ -36,7 +37,8 @@ static void distances_are_as_defined(void **state) {
         random_word(&r, a, 7);
         random_word(&r, b, 7);
         if (spelling_distance(a, b) != distance_by_definition(a, b))
-            fail_msg("%s and %s: got %u, want %u", a, b, spelling_distance(a, b), distance_by_definition(a, b));
+            fail_msg("%s and %s: got %u, want %u", a, b, spelling_distance(a, b),
+                     distance_by_definition(a, b));
     }
 }
 
@@ -109,7 +111,10 @@ static void check_row(void **state) {
 
 int main(void) {
     struct CMUnitTest tests[COUNT(rows)];
-    for (size_t i = 0; i < COUNT(rows); i++) tests[i] = (struct CMUnitTest){rows[i].name, check_row, NULL, NULL, &rows[i]};
-    const struct CMUnitTest others[] = {cmocka_unit_test(distances_are_as_defined), cmocka_unit_test(offers_keep_the_first_of_the_nearest)};
-    return cmocka_run_group_tests_name("rows", tests, NULL, NULL) + cmocka_run_group_tests_name("spelling", others, NULL, NULL);
+    for (size_t i = 0; i < COUNT(rows); i++)
+        tests[i] = (struct CMUnitTest){rows[i].name, check_row, NULL, NULL, &rows[i]};
+    const struct CMUnitTest others[] = {cmocka_unit_test(distances_are_as_defined),
+                                        cmocka_unit_test(offers_keep_the_first_of_the_nearest)};
+    return cmocka_run_group_tests_name("rows", tests, NULL, NULL) +
+           cmocka_run_group_tests_name("spelling", others, NULL, NULL);
 }

@@ -47,8 +47,13 @@ static void parse(struct parsed *p, const char *text, size_t size, unsigned nest
     size_t length;
     p->root = node_parse(&p->arena, &p->diag, &p->source, &limits, NULL, &p->problem);
     FILE *out = open_memstream(&p->text, &length);
-    if (p->root) write_node(out, p->root);
-    else fputs(p->problem.text ? p->problem.text : p->diag.first ? p->diag.first->message : "nothing was said", out);
+    if (p->root)
+        write_node(out, p->root);
+    else
+        fputs(p->problem.text ? p->problem.text
+              : p->diag.first ? p->diag.first->message
+                              : "nothing was said",
+              out);
     fclose(out);
 }
 
@@ -66,8 +71,12 @@ static struct row {
     {.name = "a scalar", .text = "gold", .want = "gold"},
     {.name = "a block mapping", .text = "a: 1\nb:\n  c: 2\n", .want = "{a:1 b:{c:2}}"},
     {.name = "a flow mapping", .text = "{a: 1, b: {c: 2}}", .want = "{a:1 b:{c:2}}"},
-    {.name = "JSON", .text = "{\"a\": [1, 2.5e3, true, null], \"b\": {\"c\": \"d\"}}", .want = "{'a':(1 2.5e3 true null) 'b':{'c':'d'}}"},
-    {.name = "JSON with tabs", .text = "{\n\t\"a\": 1,\n\t\"b\": [\n\t\t2\n\t]\n}\n", .want = "{'a':1 'b':(2)}"},
+    {.name = "JSON",
+     .text = "{\"a\": [1, 2.5e3, true, null], \"b\": {\"c\": \"d\"}}",
+     .want = "{'a':(1 2.5e3 true null) 'b':{'c':'d'}}"},
+    {.name = "JSON with tabs",
+     .text = "{\n\t\"a\": 1,\n\t\"b\": [\n\t\t2\n\t]\n}\n",
+     .want = "{'a':1 'b':(2)}"},
     {.name = "a sequence", .text = "- 1\n- - 2\n  - 3\n", .want = "(1 (2 3))"},
     {.name = "empty collections", .text = "[[], {}]", .want = "(() {})"},
     {.name = "no values", .text = "a:\nb: ~\nc:\n", .want = "{a: b:~ c:}"},
@@ -81,7 +90,9 @@ static struct row {
     {.name = "another tag", .text = "[!x 1]", .want = "a scene has no tags, found `!x`"},
 
     {.name = "an alias", .text = "[&a 1, *a]", .want = "(1 *1)"},
-    {.name = "an alias of a collection", .text = "[&a {b: [1]}, *a, *a]", .want = "({b:(1)} *{b:(1)} *{b:(1)})"},
+    {.name = "an alias of a collection",
+     .text = "[&a {b: [1]}, *a, *a]",
+     .want = "({b:(1)} *{b:(1)} *{b:(1)})"},
     {.name = "an anchor may be given again", .text = "[&a 1, *a, &a 2, *a]", .want = "(1 *1 2 *2)"},
     {.name = "an anchor within an anchor", .text = "[&a [&b 1, *b], *a]", .want = "((1 *1) *(1 *1))"},
     {.name = "an alias as a key", .text = "{&a x: 1, *a : 2}", .want = "{x:1 *x:2}"},
@@ -89,34 +100,79 @@ static struct row {
     {.name = "no such anchor", .text = "[&gold 1, *gild]", .want = "no anchor `&gild` before this alias"},
     {.name = "an anchor after its alias", .text = "[*a, &a 1]", .want = "no anchor `&a` before this alias"},
     {.name = "a cycle", .text = "&a [*a]", .want = "`*a` stands inside the very node that it names"},
-    {.name = "a cycle by a merge key", .text = "&a {<<: *a}", .want = "`*a` stands inside the very node that it names"},
-    {.name = "a hidden cycle", .text = "&a {b: [{c: *a}]}", .want = "`*a` stands inside the very node that it names"},
+    {.name = "a cycle by a merge key",
+     .text = "&a {<<: *a}",
+     .want = "`*a` stands inside the very node that it names"},
+    {.name = "a hidden cycle",
+     .text = "&a {b: [{c: *a}]}",
+     .want = "`*a` stands inside the very node that it names"},
 
-    {.name = "a merge key", .text = "[&a {x: 1, y: 2}, {<<: *a, z: 3}]", .want = "({x:1 y:2} {z:3 <x:1 <y:2})"},
-    {.name = "what is written wins", .text = "[&a {x: 1, y: 2}, {x: 3, <<: *a}]", .want = "({x:1 y:2} {x:3 <y:2})"},
-    {.name = "what is written below wins", .text = "[&a {x: 1, y: 2}, {<<: *a, x: 3}]", .want = "({x:1 y:2} {x:3 <y:2})"},
-    {.name = "the first of a list wins", .text = "[&a {x: 1}, &b {x: 2, y: 2}, {<<: [*a, *b]}]", .want = "({x:1} {x:2 y:2} {<x:1 <y:2})"},
-    {.name = "the first of two merge keys wins", .text = "[&a {x: 1}, &b {x: 2, y: 2}, {<<: *b, <<: *a}]", .want = "({x:1} {x:2 y:2} {<x:2 <y:2})"},
-    {.name = "a merge of a merge", .text = "[&a {x: 1}, &b {<<: *a, y: 2}, {<<: *b, x: 9}]", .want = "({x:1} {y:2 <x:1} {x:9 <y:2})"},
+    {.name = "a merge key",
+     .text = "[&a {x: 1, y: 2}, {<<: *a, z: 3}]",
+     .want = "({x:1 y:2} {z:3 <x:1 <y:2})"},
+    {.name = "what is written wins",
+     .text = "[&a {x: 1, y: 2}, {x: 3, <<: *a}]",
+     .want = "({x:1 y:2} {x:3 <y:2})"},
+    {.name = "what is written below wins",
+     .text = "[&a {x: 1, y: 2}, {<<: *a, x: 3}]",
+     .want = "({x:1 y:2} {x:3 <y:2})"},
+    {.name = "the first of a list wins",
+     .text = "[&a {x: 1}, &b {x: 2, y: 2}, {<<: [*a, *b]}]",
+     .want = "({x:1} {x:2 y:2} {<x:1 <y:2})"},
+    {.name = "the first of two merge keys wins",
+     .text = "[&a {x: 1}, &b {x: 2, y: 2}, {<<: *b, <<: *a}]",
+     .want = "({x:1} {x:2 y:2} {<x:2 <y:2})"},
+    {.name = "a merge of a merge",
+     .text = "[&a {x: 1}, &b {<<: *a, y: 2}, {<<: *b, x: 9}]",
+     .want = "({x:1} {y:2 <x:1} {x:9 <y:2})"},
     {.name = "a mapping written out", .text = "{<<: {x: 1}, y: 2}", .want = "{y:2 <x:1}"},
     {.name = "nothing merged", .text = "{<<: {}, <<: [], y: 2}", .want = "{y:2}"},
     {.name = "an alias key counts as written", .text = "[&k x, {<<: {x: 1}, *k : 2}]", .want = "(x {*x:2})"},
     {.name = "a quoted << is a key", .text = "{'<<': 1}", .want = "{'<<':1}"},
-    {.name = "a merge of a scalar", .text = "{<<: 1}", .want = "`<<` takes a mapping or a list of mappings, as in `<<: *base`"},
-    {.name = "a merge of a list of scalars", .text = "{<<: [{}, 1]}", .want = "`<<` takes a mapping or a list of mappings, as in `<<: *base`"},
-    {.name = "a merge of nothing", .text = "{<<: }", .want = "`<<` takes a mapping or a list of mappings, as in `<<: *base`"},
+    {.name = "a merge of a scalar",
+     .text = "{<<: 1}",
+     .want = "`<<` takes a mapping or a list of mappings, as in `<<: *base`"},
+    {.name = "a merge of a list of scalars",
+     .text = "{<<: [{}, 1]}",
+     .want = "`<<` takes a mapping or a list of mappings, as in `<<: *base`"},
+    {.name = "a merge of nothing",
+     .text = "{<<: }",
+     .want = "`<<` takes a mapping or a list of mappings, as in `<<: *base`"},
 
     {.name = "nesting at the limit", .text = "[[[1]]]", .want = "(((1)))", .nesting = 3},
-    {.name = "nesting over the limit", .text = "[[[[1]]]]", .want = "more than 3 levels of nesting (the limit `nesting`)", .nesting = 3},
-    {.name = "nesting through an alias, at the limit", .text = "[&a [1], [*a]]", .want = "((1) (*(1)))", .nesting = 3},
-    {.name = "nesting through an alias, over the limit", .text = "[&a [1], [[*a]]]", .want = "more than 3 levels of nesting (the limit `nesting`)", .nesting = 3},
-    {.name = "nesting through aliases of aliases", .text = "[&a [1], &b [*a], &c [*b]]", .want = "more than 3 levels of nesting (the limit `nesting`)", .nesting = 3},
+    {.name = "nesting over the limit",
+     .text = "[[[[1]]]]",
+     .want = "more than 3 levels of nesting (the limit `nesting`)",
+     .nesting = 3},
+    {.name = "nesting through an alias, at the limit",
+     .text = "[&a [1], [*a]]",
+     .want = "((1) (*(1)))",
+     .nesting = 3},
+    {.name = "nesting through an alias, over the limit",
+     .text = "[&a [1], [[*a]]]",
+     .want = "more than 3 levels of nesting (the limit `nesting`)",
+     .nesting = 3},
+    {.name = "nesting through aliases of aliases",
+     .text = "[&a [1], &b [*a], &c [*b]]",
+     .want = "more than 3 levels of nesting (the limit `nesting`)",
+     .nesting = 3},
     {.name = "values at the limit", .text = "[1, 2, 3]", .want = "(1 2 3)", .nodes = 4},
-    {.name = "values over the limit", .text = "[1, 2, 3]", .want = "more than 3 values in one file (the limit `values`)", .nodes = 3},
-    {.name = "values behind aliases, at the limit", .text = "[&a [1, 2], *a]", .want = "((1 2) *(1 2))", .nodes = 8},
-    {.name = "values behind aliases, over the limit", .text = "[&a [1, 2], *a]", .want = "aliases make 8 values of this file, more than 7 (the limit `values`)", .nodes = 7},
-    {.name = "a small bomb", .text = "[&a [1, 1], &b [*a, *a], &c [*b, *b], &d [*c, *c]]",
-     .want = "aliases make 79 values of this file, more than 50 (the limit `values`)", .nodes = 50},
+    {.name = "values over the limit",
+     .text = "[1, 2, 3]",
+     .want = "more than 3 values in one file (the limit `values`)",
+     .nodes = 3},
+    {.name = "values behind aliases, at the limit",
+     .text = "[&a [1, 2], *a]",
+     .want = "((1 2) *(1 2))",
+     .nodes = 8},
+    {.name = "values behind aliases, over the limit",
+     .text = "[&a [1, 2], *a]",
+     .want = "aliases make 8 values of this file, more than 7 (the limit `values`)",
+     .nodes = 7},
+    {.name = "a small bomb",
+     .text = "[&a [1, 1], &b [*a, *a], &c [*b, *b], &d [*c, *c]]",
+     .want = "aliases make 79 values of this file, more than 50 (the limit `values`)",
+     .nodes = 50},
 
     {.name = "an empty file", .text = "", .want = "the file is empty"},
     {.name = "comments alone", .text = "# x\n", .want = "the file is empty"},
@@ -245,13 +301,16 @@ static void a_full_arena_leaves_by_its_jump(void **state) {
 int main(void) {
     struct CMUnitTest tests[COUNT(rows) + COUNT(wheres)];
     size_t n = 0;
-    for (size_t i = 0; i < COUNT(rows); i++) tests[n++] = (struct CMUnitTest){rows[i].name, check_row, NULL, NULL, &rows[i]};
-    for (size_t i = 0; i < COUNT(wheres); i++) tests[n++] = (struct CMUnitTest){wheres[i].name, check_where, NULL, NULL, &wheres[i]};
+    for (size_t i = 0; i < COUNT(rows); i++)
+        tests[n++] = (struct CMUnitTest){rows[i].name, check_row, NULL, NULL, &rows[i]};
+    for (size_t i = 0; i < COUNT(wheres); i++)
+        tests[n++] = (struct CMUnitTest){wheres[i].name, check_where, NULL, NULL, &wheres[i]};
     const struct CMUnitTest others[] = {
         cmocka_unit_test(null_is_a_key_without_a_value),
         cmocka_unit_test(many_merges_of_many_keys_end_early),
         cmocka_unit_test(many_tag_directives_end_early),
         cmocka_unit_test(a_full_arena_leaves_by_its_jump),
     };
-    return cmocka_run_group_tests_name("rows", tests, NULL, NULL) + cmocka_run_group_tests_name("yaml", others, NULL, NULL);
+    return cmocka_run_group_tests_name("rows", tests, NULL, NULL) +
+           cmocka_run_group_tests_name("yaml", others, NULL, NULL);
 }

@@ -101,9 +101,12 @@ static void check_kind(const struct node *kinds, const struct node *kind) {
 static void check_function(const struct node *function) {
     static const char *const known[] = {"call", "arguments", "doc", "domain", "example", "gives", "instead"};
     const struct node *arguments = get(function, "arguments");
-    if (!text_of(function, "call") || !text_of(function, "doc")) fail(function, "a function needs a call and a doc");
-    if (!arguments || arguments->kind != NODE_SEQUENCE || arguments->count != 2) fail(function, "a function needs arguments: [least, most]");
-    if (!get(function, "example") != !get(function, "gives")) fail(function, "an example needs what it gives");
+    if (!text_of(function, "call") || !text_of(function, "doc"))
+        fail(function, "a function needs a call and a doc");
+    if (!arguments || arguments->kind != NODE_SEQUENCE || arguments->count != 2)
+        fail(function, "a function needs arguments: [least, most]");
+    if (!get(function, "example") != !get(function, "gives"))
+        fail(function, "an example needs what it gives");
     for (const struct node *field = function->first; field; field = field->next->next) {
         bool found = false;
         for (size_t i = 0; i < sizeof known / sizeof *known; i++) found |= strcmp(field->text, known[i]) == 0;
@@ -112,7 +115,8 @@ static void check_function(const struct node *function) {
 }
 
 static void check_constant(const struct node *constant) {
-    if (!text_of(constant, "value") || !text_of(constant, "doc")) fail(constant, "a constant needs a value and a doc");
+    if (!text_of(constant, "value") || !text_of(constant, "doc"))
+        fail(constant, "a constant needs a value and a doc");
 }
 
 struct definition definition_read(const char *folder) {
@@ -125,7 +129,8 @@ struct definition definition_read(const char *folder) {
         .types = read_file(folder, "types.yaml"),
         .presets = read_source(folder, "../scenes/presets.yaml"),
     };
-    for (const struct node *k = language.kinds->first; k; k = k->next->next) check_kind(language.kinds, k->next);
+    for (const struct node *k = language.kinds->first; k; k = k->next->next)
+        check_kind(language.kinds, k->next);
     for (const struct node *k = language.functions->first; k; k = k->next->next) check_function(k->next);
     for (const struct node *k = language.constants->first; k; k = k->next->next) check_constant(k->next);
     return language;
@@ -199,7 +204,8 @@ const char *type_text(const struct node *key, bool links) {
     const char *of = text_of(key, "of");
     const char *link = !of ? "" : links ? format("[%s](#%s)", of, of) : of;
     if (type_is(key, "object")) return is_true(key, "named") ? format("%s, or a name", link) : link;
-    if (type_is(key, "list")) return is_true(key, "single") ? format("%s, or list of them", link) : format("list of %s", link);
+    if (type_is(key, "list"))
+        return is_true(key, "single") ? format("%s, or list of them", link) : format("list of %s", link);
     if (type_is(key, "map")) return format("names, each with a %s", link);
     if (type_is(key, "point") || type_is(key, "direction"))
         return format("%s `[x, y, z]`", text_of(key, "type"));

@@ -8,11 +8,11 @@
 
 /* What everything is made of: language.yaml, functions.yaml, colors.yaml, types.yaml, and the presets. */
 struct definition {
-    const struct node *kinds;  /* a mapping: names, each with a kind */
+    const struct node *kinds;                 /* a mapping: names, each with a kind */
     const struct node *functions, *constants; /* mappings: names of expressions, each with what it is */
-    const struct node *colors; /* a mapping: names, each with "#rrggbb" */
-    const struct node *types;  /* a mapping: names, each with the JSON Schema of values */
-    const struct source *presets; /* scenes/presets.yaml */
+    const struct node *colors;                /* a mapping: names, each with "#rrggbb" */
+    const struct node *types;                 /* a mapping: names, each with the JSON Schema of values */
+    const struct source *presets;             /* scenes/presets.yaml */
 };
 
 /* Reads the definition in `folder`. Ends the program with a message and 2 when it is not right. */

@@ -28,7 +28,8 @@ static void reference_later(FILE *out, const char *name, const struct node *kind
 }
 
 static void reference_expressions(FILE *out, const struct definition *language) {
-    fputs("\n## Expressions\n\nWherever a number is expected, an expression may stand: numbers, colours, names, `[x, y, z]`, and, "
+    fputs("\n## Expressions\n\nWherever a number is expected, an expression may stand: numbers, colours, "
+          "names, `[x, y, z]`, and, "
           "from what binds most to what binds least,\n\n"
           "| | |\n| --- | --- |\n"
           "| `v.x` `v.y` `v.z` `c.r` `c.g` `c.b` `v[i]` | parts of a vector or colour; i counts from 0 |\n"
@@ -41,16 +42,21 @@ static void reference_expressions(FILE *out, const struct definition *language) 
           "| `a && b` | and; b is not looked at where a is 0 |\n"
           "| `a \\|\\| b` | or; b is not looked at where a is not 0 |\n"
           "| `a ? b : c` | b where a is not 0, else c |\n\n"
-          "Vectors go through arithmetic and through the functions of numbers part by part; a number meets a vector by being repeated. "
-          "Angles are in degrees. Every result must be a finite number. `#rgb`, `#rrggbb` and the names of CSS are linear colours; no "
+          "Vectors go through arithmetic and through the functions of numbers part by part; a number meets a "
+          "vector by being repeated. "
+          "Angles are in degrees. Every result must be a finite number. `#rgb`, `#rrggbb` and the names of "
+          "CSS are linear colours; no "
           "parameter and no loop variable can have the name of a colour or a constant.\n\n"
-          "| function | | example | gives |\n| --- | --- | --- | --- |\n", out);
+          "| function | | example | gives |\n| --- | --- | --- | --- |\n",
+          out);
     for (const struct node *k = language->functions->first; k; k = k->next->next) {
         const char *call = text_of(k->next, "call"), *doc = text_of(k->next, "doc");
         const char *domain = text_of(k->next, "domain"), *example = text_of(k->next, "example");
         fprintf(out, "| `%s` | %s%s |", call, doc, domain ? format(" Takes %s.", domain) : "");
-        if (example) fprintf(out, " `%s` | `%s` |\n", example, text_of(k->next, "gives"));
-        else fputs(" | |\n", out);
+        if (example)
+            fprintf(out, " `%s` | `%s` |\n", example, text_of(k->next, "gives"));
+        else
+            fputs(" | |\n", out);
     }
     fputs("\n| constant | | value |\n| --- | --- | --- |\n", out);
     for (const struct node *k = language->constants->first; k; k = k->next->next)
@@ -58,7 +64,8 @@ static void reference_expressions(FILE *out, const struct definition *language) 
 }
 
 void write_reference(FILE *out, const struct definition *language) {
-    fputs("# Reference of the scene language\n\nGenerated from `language.yaml` and `functions.yaml`. A *color* is linear `[r, g, "
+    fputs("# Reference of the scene language\n\nGenerated from `language.yaml` and `functions.yaml`. A "
+          "*color* is linear `[r, g, "
           "b]`, each 0 to 1, or sRGB: a string "
           "like `\"#ffd700\"` or a CSS name like `gold`. Angles are in degrees. A *point* is in the space of "
           "the object that has the key.\n",

@@ -40,13 +40,15 @@ static void header_kind_name(FILE *out, const char *name, const struct node *kin
 }
 
 void write_header(FILE *out, const struct definition *language) {
-    fprintf(out, "/* Generated from grammar/language.yaml and grammar/functions.yaml. */\n#ifndef GRAMMAR_TABLES_H\n#define "
+    fprintf(out, "/* Generated from grammar/language.yaml and grammar/functions.yaml. */\n#ifndef "
+                 "GRAMMAR_TABLES_H\n#define "
                  "GRAMMAR_TABLES_H\n\nenum {\n");
     for_kinds(language, out, header_kind_name);
     fprintf(out, "    KINDS\n};\n\n");
     for_kinds(language, out, header_kind);
     fprintf(out, "\nenum {\n");
-    for (const struct node *k = language->functions->first; k; k = k->next->next) fprintf(out, "    FUNCTION_%s,\n", upper(k->text));
+    for (const struct node *k = language->functions->first; k; k = k->next->next)
+        fprintf(out, "    FUNCTION_%s,\n", upper(k->text));
     fprintf(out, "    FUNCTIONS\n};\n\n#endif\n");
 }
 
@@ -151,8 +153,9 @@ static void write_kind(FILE *out, const char *name, const struct node *kind) {
     write_string(out, text_of(kind, "doc"));
     fputs(", ", out);
     write_string(out, text_of(kind, "example"));
-    fprintf(out, ", keys_%s, KEYS_%s, 0x%llx, 0x%llx, 0x%llx},\n", name, upper(name), keys_with(kind, "required"),
-            keys_with(kind, "alternative"), keys_with(kind, "excludes") | keys_with(kind, "needs"));
+    fprintf(out, ", keys_%s, KEYS_%s, 0x%llx, 0x%llx, 0x%llx},\n", name, upper(name),
+            keys_with(kind, "required"), keys_with(kind, "alternative"),
+            keys_with(kind, "excludes") | keys_with(kind, "needs"));
 }
 
 static void write_colors(FILE *out, const struct node *colors) {
@@ -169,7 +172,8 @@ static void write_function(FILE *out, const char *name, const struct node *funct
     fprintf(out, "    {.name = \"%s\", .least = %s, .most = %s", name, least->text, least->next->text);
     write_words(out, "instead", get(function, "instead"));
     const char *texts[] = {"call", "doc", "domain", "example", "gives"};
-    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) write_text(out, texts[i], text_of(function, texts[i]));
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++)
+        write_text(out, texts[i], text_of(function, texts[i]));
     fputs("},\n", out);
 }
 
@@ -181,9 +185,13 @@ static void write_constant(FILE *out, const char *name, const struct node *const
 
 static void write_expressions(FILE *out, const struct definition *language) {
     fputs("const struct grammar_function grammar_functions[] = {\n", out);
-    for (const struct node *k = language->functions->first; k; k = k->next->next) write_function(out, k->text, k->next);
-    fputs("};\nconst int grammar_function_count = FUNCTIONS;\nconst struct grammar_constant grammar_constants[] = {\n", out);
-    for (const struct node *k = language->constants->first; k; k = k->next->next) write_constant(out, k->text, k->next);
+    for (const struct node *k = language->functions->first; k; k = k->next->next)
+        write_function(out, k->text, k->next);
+    fputs("};\nconst int grammar_function_count = FUNCTIONS;\nconst struct grammar_constant "
+          "grammar_constants[] = {\n",
+          out);
+    for (const struct node *k = language->constants->first; k; k = k->next->next)
+        write_constant(out, k->text, k->next);
     fprintf(out, "};\nconst int grammar_constant_count = %u;\n", (unsigned)language->constants->count);
 }
 
