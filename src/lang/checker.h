@@ -79,6 +79,7 @@ struct checker {
     bool waiting;                         /* a name was looked for in vain while provisional */
     bool included;          /* the file that is checked is there for its definitions: it needs no scene */
     bool rehearsing;        /* names and forms are checked; values are not known, nothing is placed */
+    bool in_template; /* of what is rehearsed */
     bool stopped;           /* a limit was passed: evaluation is over */
     bool moved;             /* the animation's variables were read */
     unsigned depth;         /* of templates in use */

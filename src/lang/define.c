@@ -257,7 +257,7 @@ static void rehearse_template(struct checker *ck, const struct node *node,
     struct binding *bindings =
         arena_array(ck->arena, declared && declared->count ? declared->count : 1, sizeof *bindings);
     struct scope scope = {NULL, bindings, 0};
-    ck->rehearsing = true;
+    ck->rehearsing = ck->in_template = true;
     for (const struct node *name = declared ? declared->first : NULL; name; name = name->next->next) {
         struct binding ignored;
         if (is_no_pair(name) || !define_name_allowed(ck, "a parameter", name)) {
@@ -272,7 +272,7 @@ static void rehearse_template(struct checker *ck, const struct node *node,
     }
     ck->scope = &scope;
     if (objects) place_members(ck, KIND_TEMPLATE, KEY_TEMPLATE_OBJECTS, objects->node);
-    ck->rehearsing = false;
+    ck->rehearsing = ck->in_template = false;
     ck->variables_lost = lost;
     arena_release(ck->arena, before);
     ck->arena = kept;

@@ -546,9 +546,12 @@ void report_no_map(struct checker *ck, const struct grammar_key *key, const stru
 
 /* `material: glass`, where there is a preset of that name. */
 static bool help_preset(struct checker *ck, struct diagnostic *d, const char *word) {
-    const struct definition *preset = table_find(&define_presets(ck)->names, word);
-    if (preset) diag_help(ck->diag, d, "write {preset: %s}", preset->name);
-    return preset != NULL;
+    const struct definitions *presets = define_presets(ck);
+    struct spelling s = spelling_begin(word);
+    for (const struct definition *def = presets->first; def; def = def->next) spelling_offer(&s, def->name);
+    const bool is = s.best && s.distance <= 1;
+    if (is) diag_help(ck->diag, d, "write {preset: %s}", s.best);
+    return is;
 }
 
 void report_no_name(struct checker *ck, const struct grammar_key *key, const struct definitions *among,

@@ -134,6 +134,9 @@ void scalar_help_variable(struct checker *ck, struct diagnostic *d, const char *
         diag_help(ck->diag, d, "for `frame`, `t` and `time` add `animation: {frames: 24}`");
     else if (v.spelling.best)
         diag_help(ck->diag, d, "did you mean `%s`?", v.spelling.best);
+    else if (ck->rehearsing && ck->in_template)
+        diag_help(ck->diag, d,
+                  "a template sees its own parameters and the file's alone: add `params: {%s: 0}`", text);
     else if (*v.all)
         diag_note(ck->diag, d, "the variables here: %s", v.all);
 }

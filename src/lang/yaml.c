@@ -391,7 +391,9 @@ static bool tag_allowed(struct reader *rd, const yaml_char_t *tag, const struct 
         return true;
     struct diagnostic *d =
         diag_error(rd->diag, node->span, "tag", "a scene has no tags, found `%.40s`", (const char *)tag);
-    diag_help(rd->diag, d, "remove what starts with `!`");
+    diag_help(rd->diag, d,
+              tag[0] == '!' ? "remove it; an expression that starts with `!` needs quotes"
+                            : "remove the tag");
     return false;
 }
 

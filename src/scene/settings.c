@@ -225,6 +225,19 @@ void lights_check(struct builder *b, const struct object_value *file) {
 
 /* ---- Materials ---- */
 
+/* At the one of the two that is written here, where the other is of a preset or of another file. */
+static void report_too_much_light(struct builder *b, const struct object_value *object, double sum) {
+    const struct span mirrored = object_span(object, KEY_MATERIAL_REFLECTION),
+                      through = object_span(object, KEY_MATERIAL_REFRACTION);
+    const bool own = through.source == object->span.source;
+    struct diagnostic *d =
+        diag_error(b->diag, own ? through : mirrored, "too-much-light",
+                   "`reflection` and `refraction` add up to %g: more light than comes in", sum);
+    diag_help(b->diag, d, "their sum is at most 1");
+    diag_related(b->diag, d, own ? mirrored : through, "`%s` is given here",
+                 own ? "reflection" : "refraction");
+}
+
 static struct material material_of(struct builder *b, const struct object_value *object) {
     struct material m = {
         .ambient = object_vec3(object, KEY_MATERIAL_AMBIENT),
@@ -237,11 +250,7 @@ static struct material material_of(struct builder *b, const struct object_value 
     const vec3 sum = vec3_add(m.reflection, m.refraction);
     const double most = sum.x > sum.y ? (sum.x > sum.z ? sum.x : sum.z) : (sum.y > sum.z ? sum.y : sum.z);
     if (most > 1.0 + 1e-9 && !object->failed) {
-        struct diagnostic *d =
-            diag_error(b->diag, object_span(object, KEY_MATERIAL_REFRACTION), "too-much-light",
-                       "`reflection` and `refraction` add up to %g: more light than comes in", most);
-        diag_help(b->diag, d, "their sum is at most 1");
-        diag_related(b->diag, d, object_span(object, KEY_MATERIAL_REFLECTION), "`reflection` is given here");
+        report_too_much_light(b, object, most);
     }
     const vec3 left = vec3_scale(vec3_sub(vec3_all(1), sum), 0.8);
     const vec3 matte = {left.x > 0 ? left.x : 0, left.y > 0 ? left.y : 0, left.z > 0 ? left.z : 0};
