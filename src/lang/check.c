@@ -151,7 +151,7 @@ static bool check_values(struct checker *ck, const struct grammar_key *key, cons
     for (const struct node *name = n->first; name; name = name->next->next) {
         if (!node_is_null(name->next) || key->type == GRAMMAR_MAP) continue; /* define.c reads a map's */
         good = false;
-        if (report_cut_before(ck, n, name)) continue;
+        if (only_counted(ck, name->span) || report_cut_before(ck, n, name)) continue;
         const char *word = node_resolve(name)->kind == NODE_SCALAR ? node_resolve(name)->text : "";
         struct diagnostic *d = diag_error(ck->diag, name->span, "no-value", "`%s` has no value",
                                           *word ? short_text(ck, word) : "it");

@@ -203,9 +203,11 @@ bool report_cut_in(struct checker *ck, const char *what, const struct node *list
 bool report_cut_before(struct checker *ck, const struct node *mapping, const struct node *key) {
     const struct node *name = NULL; /* of the last value that is there */
     if (!node_is_null(key->next) || diag_full(ck->diag)) return false;
-    for (const struct node *k = mapping->first; k && k != key; k = k->next->next)
-        if (!node_is_null(k->next)) name = k;
-    return name && node_resolve(name)->kind == NODE_SCALAR &&
+    enum { MOST = 16 }; /* arguments of a call: a longer row of keys without values is something else */
+    int since = 0;
+    for (const struct node *k = mapping->first; k && k != key; k = k->next->next, since++)
+        if (!node_is_null(k->next)) name = k, since = 0;
+    return name && since <= MOST && node_resolve(name)->kind == NODE_SCALAR &&
            report_cut(ck, node_resolve(name)->text, name->next);
 }
 
