@@ -52,7 +52,7 @@ static struct arena_block *arena_grow(struct arena *arena, size_t size) {
     return block;
 }
 
-void *arena_alloc(struct arena *arena, size_t size) {
+void *arena_room(struct arena *arena, size_t size) {
     const size_t unit = alignof(max_align_t);
     if (size > SIZE_MAX - unit) arena_full(arena);
     const size_t rounded = (size + unit - 1) / unit * unit;
@@ -60,8 +60,10 @@ void *arena_alloc(struct arena *arena, size_t size) {
     if (!block || block->size - block->used < rounded) block = arena_grow(arena, rounded);
     void *result = block->data + block->used;
     block->used += rounded;
-    return memset(result, 0, size);
+    return result;
 }
+
+void *arena_alloc(struct arena *arena, size_t size) { return memset(arena_room(arena, size), 0, size); }
 
 void *arena_array(struct arena *arena, size_t count, size_t size) {
     if (size && count > SIZE_MAX / size) arena_full(arena);

@@ -23,6 +23,7 @@ struct arena {
 
 /* An empty arena is a zeroed struct arena, with limit and on_full as wanted. */
 void *arena_alloc(struct arena *arena, size_t size); /* zeroed, aligned for any type */
+void *arena_room(struct arena *arena, size_t size);  /* the same, not zeroed */
 void *arena_array(struct arena *arena, size_t count,
                   size_t size); /* the same; count * size may not overflow */
 /* `array` of `from` bytes with room for `to`, which is more; what it had stays, what is new is not zeroed. A

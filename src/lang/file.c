@@ -16,14 +16,14 @@ const struct source *file_from_memory(struct arena *arena, const char *name, con
  * NULL with errno on an error of the stream. One byte past the limit is enough to know. */
 static char *read_all(struct arena *arena, FILE *in, size_t size, size_t limit, size_t *out) {
     size_t room = size ? size + 1 : 64 * 1024, used = 0;
-    char *text = arena_alloc(arena, room);
+    char *text = arena_room(arena, room);
     for (;;) {
         const size_t got = fread(text + used, 1, room - used, in);
         used += got;
         if (ferror(in)) return NULL;
         if (feof(in) || used > limit) break;
         if (used == room) {
-            char *larger = arena_alloc(arena, 2 * room);
+            char *larger = arena_room(arena, 2 * room);
             memcpy(larger, text, used);
             text = larger;
             room *= 2;

@@ -480,8 +480,8 @@ static bool report_empty(struct reader *rd) {
 static bool tag_directives_allowed(struct reader *rd) {
     enum { MANY = 100 };
     const char *at = rd->source->text, *end = at + rd->source->size;
-    for (int i = 0; (at = memmem(at, (size_t)(end - at), "%TAG", 4)); at++)
-        if (++i > MANY) {
+    for (int i = 0; (at = memchr(at, '%', (size_t)(end - at))); at++)
+        if ((size_t)(end - at) >= 4 && memcmp(at, "%TAG", 4) == 0 && ++i > MANY) {
             diag_error(rd->diag, (struct span){rd->source, 0, 0, 1}, "bad-document",
                        "more than %d times %%TAG: a scene has no tags", MANY);
             return false;
