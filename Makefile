@@ -106,7 +106,7 @@ same: all ## that the golden pictures are the same from other compilers and opti
 fuzz: deps ## a minute of hostile bytes for the loader (libFuzzer where clang has it)
 	tests/fuzz/run.sh 60 $(BUILD)/fuzz
 
-coverage: deps editor-deps ## the tests with gcc's line coverage, per file of src/; fails below 90 %
+coverage: deps editor-deps ## the tests with gcc's line coverage, per file of src/; fails below 90 %, or at an error that no test makes
 	@find $(BUILD)/coverage -name '*.gcda' -delete 2>/dev/null || true
 	+@$(SUBMAKE) run-tests CC=gcc CFLAGS="-O0 -g" BUILD=$(BUILD)/coverage VARIANT="--coverage -fprofile-update=atomic"
 	@tools/coverage $(BUILD)/coverage 90
@@ -198,10 +198,14 @@ $(BUILD)/libmonge.a: $(OBJECTS)
 	$(call say,ar,$@)
 	$(QUIET)rm -f $@ && ar qcs $@ $^
 
+# What a test has of its own, to see what happens when it fails.
+WRAPPED_test_format := layout_same_events
+WRAPPED_test_memory := malloc calloc realloc
+
 $(BUILD)/tests/%: $(BUILD)/obj/tests/unit/%.o $(BUILD)/libmonge.a
 	@mkdir -p $(@D)
 	$(call say,link,$@)
-	$(QUIET)$(LINK) -o $@ $^ -lcmocka $(LIBS)
+	$(QUIET)$(LINK) $(WRAPPED_$*:%=-Wl,--wrap=%) -o $@ $^ -lcmocka $(LIBS)
 
 $(BUILD)/tools/grammar: $(call object,$(wildcard tools/grammar/*.c)) $(TOOL_OBJECTS)
 	@mkdir -p $(@D)

@@ -54,7 +54,8 @@ char *format_text(struct arena *arena, struct diagnostics *diag, const struct so
     if (!layout) return NULL;
     char *text = layout_print(arena, layout, size);
     const struct source result = {source->name, text, *size};
-    if (layout_same_events(source, &result) && layout_same_comments(arena, plain, &result)) return text;
+    if (layout_same_events(arena, source, &result) && layout_same_comments(arena, plain, &result))
+        return text;
     diag_failure(diag, "format-differs",
                  "%s: a mistake in Monge: the formatted text would not say the same; it is left as it is",
                  source->name);

@@ -86,8 +86,9 @@ struct layout *layout_read(struct arena *arena, struct diagnostics *diag, const 
 /* The text in the canonical style; a final zero follows its *size bytes. */
 char *layout_print(struct arena *arena, const struct layout *layout, size_t *size);
 
-/* Whether two texts mean the same to YAML: collections, scalars, anchors, aliases, tags. */
-bool layout_same_events(const struct source *a, const struct source *b);
+/* Whether two texts mean the same to YAML: collections, scalars, anchors, aliases, tags. arena->on_full
+ * must be set. */
+bool layout_same_events(struct arena *arena, const struct source *a, const struct source *b);
 
 /* Whether they have the same comments in the same order; both as for layout_scan. */
 bool layout_same_comments(struct arena *arena, const struct source *a, const struct source *b);

@@ -51,12 +51,14 @@ static bool begin_parser(yaml_parser_t *parser, const struct source *source) {
     return true;
 }
 
-bool layout_same_events(const struct source *a, const struct source *b) {
+bool layout_same_events(struct arena *arena, const struct source *a, const struct source *b) {
     yaml_parser_t of_a = {0}, of_b = {0};
     bool good = begin_parser(&of_a, a) && begin_parser(&of_b, b), more = good;
     while (more) good = same_step(&of_a, &of_b, &more);
+    const bool is_full = of_a.error == YAML_MEMORY_ERROR || of_b.error == YAML_MEMORY_ERROR;
     yaml_parser_delete(&of_a);
     yaml_parser_delete(&of_b);
+    if (is_full) longjmp(*arena->on_full, 1);
     return good;
 }
 

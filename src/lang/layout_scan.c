@@ -102,10 +102,11 @@ static void take_token(struct scanner *sc) {
     if (end > sc->covered) sc->covered = end;
 }
 
+/* What is YAML fails for lack of memory alone. */
 static void scan_tokens(struct scanner *sc) {
     do {
         yaml_token_delete(&sc->token);
-        if (!yaml_parser_scan(&sc->parser, &sc->token)) return;
+        if (!yaml_parser_scan(&sc->parser, &sc->token)) longjmp(*sc->arena->on_full, 1);
         take_token(sc);
     } while (sc->token.type != YAML_STREAM_END_TOKEN && sc->token.type != YAML_NO_TOKEN);
 }

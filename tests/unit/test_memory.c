@@ -1,4 +1,5 @@
-/* However little memory a load may take, it ends with a scene or with the limit's name, and leaves nothing open. */
+/* However little memory a load may take, it ends with a scene or with the limit's name, and leaves nothing
+ * open; so it does where the system has none. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -61,8 +62,84 @@ static void files_are_closed(void **state) {
     unlink(path);
 }
 
+/* ---- A system that has no memory once: the library's comes from here, and libyaml's too ---- */
+
+static unsigned requests, refused;
+
+static bool has_memory(void) { return ++requests != refused; }
+
+void *__real_malloc(size_t size);
+void *__real_calloc(size_t count, size_t size);
+void *__real_realloc(void *memory, size_t size);
+void *__wrap_malloc(size_t size);
+void *__wrap_calloc(size_t count, size_t size);
+void *__wrap_realloc(void *memory, size_t size);
+void *yaml_malloc(size_t size);
+void *yaml_realloc(void *memory, size_t size);
+
+void *__wrap_malloc(size_t size) { return has_memory() ? __real_malloc(size) : NULL; }
+void *__wrap_calloc(size_t count, size_t size) { return has_memory() ? __real_calloc(count, size) : NULL; }
+void *__wrap_realloc(void *memory, size_t size) { return has_memory() ? __real_realloc(memory, size) : NULL; }
+void *yaml_malloc(size_t size) { return __wrap_malloc(size ? size : 1); }
+void *yaml_realloc(void *memory, size_t size) { return __wrap_realloc(memory, size ? size : 1); }
+
+static bool load(struct monge_diagnostics *diag) {
+    const struct monge_load_options options = {.limits.memory_bytes = 1 << 30};
+    struct monge_scene *scene = monge_load_memory("small.yaml", text, strlen(text), &options, diag);
+    monge_scene_free(scene);
+    return scene != NULL;
+}
+
+static bool format(struct monge_diagnostics *diag) {
+    const struct monge_limits limits = {.memory_bytes = 1 << 30};
+    const struct monge_text given = {(char *)text, strlen(text)};
+    struct monge_text formatted;
+    const bool done = monge_format("small.yaml", &given, &limits, &formatted, diag);
+    monge_text_free(&formatted);
+    return done;
+}
+
+static struct task {
+    const char *name;
+    bool (*run)(struct monge_diagnostics *diag);
+} tasks[] = {{"a load without memory", load}, {"a format without memory", format}};
+
+/* Refuses each request for memory in its turn: by the library's arenas, by others of it, by libyaml. */
+static void check_refusals(void **state) {
+    static const char none[] = "monge: error[out-of-memory]: small.yaml: out of memory\n";
+    static const char none_for_presets[] = "monge: error[out-of-memory]: presets.yaml: out of memory\n";
+    static const char full[] =
+        "monge: error[limit-memory]: small.yaml: takes more memory than there is, or than "
+        "1073741824 bytes (the limit `memory_bytes`)\n";
+    const struct task *task = *state;
+    unsigned told[2] = {0, 0};
+    for (unsigned request = 1;; request++) {
+        char said[400] = "";
+        struct monge_diagnostics *diag = monge_diagnostics_new();
+        requests = 0;
+        refused = request;
+        const bool good = task->run(diag);
+        refused = 0;
+        FILE *out = fmemopen(said, sizeof said, "w");
+        monge_diagnostics_write(diag, MONGE_FORMAT_TEXT, out);
+        fclose(out);
+        monge_diagnostics_free(diag);
+        if (requests < request) {
+            assert_true(good);
+            break;
+        }
+        assert_false(good);
+        const bool short_of = strcmp(said, none) == 0 || strcmp(said, none_for_presets) == 0;
+        if (!short_of) assert_string_equal(said, full);
+        told[short_of]++;
+    }
+    assert_true(told[0] > 0 && told[1] > 0);
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(within_any_memory),
-                                       cmocka_unit_test(files_are_closed)};
+    struct CMUnitTest tests[2 + sizeof tasks / sizeof *tasks] = {cmocka_unit_test(within_any_memory),
+                                                                 cmocka_unit_test(files_are_closed)};
+    for (size_t i = 0; i < sizeof tasks / sizeof *tasks; i++)
+        tests[2 + i] = (struct CMUnitTest){tasks[i].name, check_refusals, NULL, NULL, &tasks[i]};
     return cmocka_run_group_tests_name("memory", tests, NULL, NULL);
 }
