@@ -9,12 +9,10 @@
 #include "lang/format.h"
 #include "lang/import.h"
 
-/* ---- Importing ---- */
-
-static bool write_text(const char *text, const char *path, struct diagnostics *diag) {
+static bool write_text(const char *text, size_t size, const char *path, struct diagnostics *diag) {
     struct replacement file;
     if (replace_begin(&file, path)) {
-        fputs(text, file.stream);
+        fwrite(text, 1, size, file.stream);
         if (replace_commit(&file)) return true;
     }
     diag_failure(diag, "cannot-write", "cannot write %s: %s",
@@ -22,12 +20,14 @@ static bool write_text(const char *text, const char *path, struct diagnostics *d
     return false;
 }
 
+/* ---- Importing ---- */
+
 static bool import_text(struct arena *arena, const char *path, const char *out_path,
                         const struct monge_limits *limits, struct diagnostics *diag) {
     const struct lang_limits within = face_lang_limits(limits);
     const struct source *source = file_read(arena, diag, path, limits->file_bytes);
     const char *text = source ? lang_import(arena, diag, source, &within) : NULL;
-    return text && write_text(text, out_path, diag);
+    return text && write_text(text, strlen(text), out_path, diag);
 }
 
 bool monge_import(const char *path, const char *out_path, const struct monge_limits *given,
@@ -98,11 +98,5 @@ bool monge_format(const char *name, const struct monge_text *text, const struct 
 }
 
 bool monge_text_write(const char *path, const struct monge_text *text, struct monge_diagnostics *diag) {
-    struct replacement file;
-    if (replace_begin(&file, path)) {
-        fwrite(text->bytes, 1, text->size, file.stream);
-        if (replace_commit(&file)) return true;
-    }
-    diag_failure(&diag->list, "cannot-write", "cannot write %s: %s", path, strerror(errno));
-    return false;
+    return write_text(text->bytes, text->size, path, &diag->list);
 }

@@ -112,8 +112,12 @@ ok "the others are formatted" cmp b.yaml want
 run --check broken.yaml
 ok "--check of what is not YAML is exit 2" [ $status -eq 2 ]
 fresh c.yaml
-(trap '' XFSZ; ulimit -f 0; "$monge" fmt -q c.yaml 2>/dev/null)
-ok "a full disk is exit 2" [ $? -eq 2 ]
+(trap '' XFSZ; ulimit -f 0; exec "$monge" fmt -q c.yaml 2>&1) | cat >err
+ok "a full disk is exit 2" [ "${PIPESTATUS[0]}" -eq 2 ]
+ok "and is told" grep -qx 'monge: error\[cannot-write\]: cannot write c.yaml: File too large' err
+"$monge" fmt - <c.yaml >/dev/full 2>err
+ok "a full device is exit 2" [ $? -eq 2 ]
+ok "and is told" grep -qx 'monge: error\[cannot-write\]: cannot write standard output: No space left on device' err
 fresh c.want
 ok "a full disk leaves the file" cmp c.yaml c.want
 ok "no temporary files" [ -z "$(find . -name '*.tmp')" ]
@@ -133,7 +137,16 @@ for odd in '? scene\n: []\n' '{[a]: b}\n' '{[a,\n b]: c}\n' 'a: "\342\200\250"\n
     ok "refused: $odd" [ $? -eq 2 -a -s err -a ! -s out ]
 done
 printf '? scene\n: []\n' | "$monge" fmt - 2>err
-ok "it has a code" grep -q '^<stdin>:1:1: error\[odd-key\]' err
+cat >told <<'END'
+<stdin>:1:1: error[odd-key]: a key behind `?`, or one that is no word, has no canonical form
+    1 | ? scene
+      | ^ write `key: value`
+END
+ok "an odd key is told" diff -u told err
+printf 'scene: [] # \342\200\250\n' | "$monge" fmt - 2>err
+printf '<stdin>:1:13: error[bad-character]: %s\n    1 | scene: [] # \342\200\250\n      |             ^ remove it\n' \
+    'a line separator (U+2028) or paragraph separator (U+2029)' >told
+ok "a separator is told" diff -u told err
 
 echo "fmt: $passed passed, $failed failed"
 [ "$failed" -eq 0 ]

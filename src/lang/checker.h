@@ -114,6 +114,9 @@ void scalar_help_variable(struct checker *ck, struct diagnostic *d, const char *
 /* Adds `true` or `false` for a word like `yes`. Whether it is one. */
 bool scalar_help_truth(struct checker *ck, struct diagnostic *d, const char *word);
 
+/* Adds what to write for an expression as of another language: `a and b`. Whether it looks like one. */
+bool scalar_help_expression(struct checker *ck, struct diagnostic *d, const char *text);
+
 /* Whether the text is a number of the language: decimal, of any size. */
 bool scalar_is_number(const char *text);
 

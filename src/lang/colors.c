@@ -1,5 +1,4 @@
 #include <ctype.h>
-#include <stdio.h>
 #include <string.h>
 #include <strings.h>
 
@@ -52,17 +51,6 @@ bool color_parse(const char *text, vec3 *out) {
     return false;
 }
 
-/* `rgb(255, 215, 0)`, of CSS. */
-static bool help_rgb(struct checker *ck, struct diagnostic *d, const char *text) {
-    unsigned r, g, b;
-    int end = 0;
-    if (sscanf(text, "rgb(%3u ,%3u ,%3u )%n", &r, &g, &b, &end) != 3 || end == 0 || text[end] || r > 255 ||
-        g > 255 || b > 255)
-        return false;
-    diag_help(ck->diag, d, "write \"#%02x%02x%02x\"", r, g, b);
-    return true;
-}
-
 static void report_no_color(struct checker *ck, const struct grammar_key *key, const struct node *node) {
     if (only_counted(ck, node->span)) return;
     struct diagnostic *d =
@@ -76,8 +64,6 @@ static void report_no_color(struct checker *ck, const struct grammar_key *key, c
         diag_help(ck->diag, d, "for a grey write [%s, %s, %s], or `%s * white`", text, text, text, text);
     else if (*text != '#' && parse_hex(hash, rgb))
         diag_help(ck->diag, d, "did you mean \"%s\"?", hash);
-    else if (help_rgb(ck, d, text))
-        return;
     else if (n->kind == NODE_MAPPING)
         diag_help(ck->diag, d,
                   "a colour is [r, g, b], \"#rrggbb\" or a CSS name; textures are not there yet");

@@ -219,8 +219,8 @@ static void declare(struct checker *ck, struct definitions *all, const struct gr
     }
     for (const struct node *name = n->first; name; name = name->next->next) {
         if (node_resolve(name)->kind != NODE_SCALAR) {
-            diag_error(ck->diag, name->span, "key-not-a-word", "a key of %s is a word, found %s", kind->title,
-                       found_text(ck, name));
+            diag_error(ck->diag, name->span, "key-not-a-word", "the name of %s is a word, found %s",
+                       kind->title, found_text(ck, name));
             continue;
         }
         const struct definition *before = table_find(&all->names, node_resolve(name)->text);

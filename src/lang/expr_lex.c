@@ -146,12 +146,8 @@ static bool lex_symbol(struct parser *p, const char *start) {
             return slip(p, p->token.offset, strlen(strangers[i].found), "bad-expression",
                         strangers[i].message, strangers[i].help);
     if (*start && strchr("+-*/%^!<>?:,.()[]", *start)) return take(p, TOKEN_SYMBOL, *start, start + 1);
-    const bool plain = *start > ' ' && *start < 0x7f;
-    return slip(
-        p, p->token.offset, 1, "bad-expression",
-        plain ? arena_format(p->arena, "`%c` has no meaning here", *start)
-              : arena_format(p->arena, "a character (%02x) that has no meaning here", (unsigned char)*start),
-        NULL);
+    return slip(p, p->token.offset, 1, "bad-expression",
+                arena_format(p->arena, "`%c` has no meaning here", *start), NULL);
 }
 
 bool lexer_next(struct parser *p) {

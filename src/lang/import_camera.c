@@ -68,7 +68,8 @@ static bool read_camera(struct importer *im, const struct layer *camera, struct 
     const bool up = read_point(im, camera, "up", &c->up);
     if (width && height && c->width * c->height > 1 << 28) {
         diag_error(im->diag, camera->mapping->span, "import-value",
-                   "a picture of %g x %g pixels is too large", c->width, c->height);
+                   "a picture has at most 268435456 pixels, as 16384 x 16384; this one has %g x %g", c->width,
+                   c->height);
         return false;
     }
     return width && height && fov && from && to && up && check_view(im, camera, c);

@@ -154,7 +154,7 @@ void import_transform(struct importer *im, struct steps *steps, struct place_in_
         import_list(im, steps, at);
     else
         diag_error(im->diag, at.node->span, "import-value",
-                   "`transform`: expected a list of steps, found a mapping");
+                   "`transform`: expected a list of steps like [translate, 1, 2, 3], found a mapping");
     import_leave(im);
 }
 

@@ -266,7 +266,7 @@ enum quantity_result loop_condition(struct checker *ck, const struct node *node,
     if (n->kind == NODE_SCALAR && scalar_help_truth(ck, d, n->text)) return QUANTITY_WRONG;
     if (n->kind == NODE_SCALAR && scope_is_name(n->text))
         scalar_help_variable(ck, d, n->text);
-    else
+    else if (n->kind != NODE_SCALAR || !scalar_help_expression(ck, d, n->text))
         diag_help(ck->diag, d, "as in `when: depth > 0`");
     return QUANTITY_WRONG;
 }

@@ -141,6 +141,13 @@ void scalar_help_variable(struct checker *ck, struct diagnostic *d, const char *
         diag_note(ck->diag, d, "the variables here: %s", v.all);
 }
 
+bool scalar_help_expression(struct checker *ck, struct diagnostic *d, const char *text) {
+    struct expr_error error = {0};
+    if (!strchr(text, ' ') || expr_parse(ck->arena, text, strlen(text), &error) || !error.help) return false;
+    diag_help(ck->diag, d, "%s", error.help);
+    return true;
+}
+
 static void help_scalar(struct checker *ck, struct diagnostic *d, const char *text) {
     const char *what = NULL, *mended = mend_lookalike(ck, text, &what);
     if (mended)
@@ -152,6 +159,8 @@ static void help_scalar(struct checker *ck, struct diagnostic *d, const char *te
         diag_help(ck->diag, d, "a number is finite");
     else if (scope_is_name(text))
         scalar_help_variable(ck, d, text);
+    else
+        scalar_help_expression(ck, d, text);
 }
 
 /* The text that the variable stands for, which is no number; NULL: it is no such variable. */

@@ -219,6 +219,8 @@ void lights_check(struct builder *b, const struct object_value *file) {
                                 : "no light that any material gives back: everything will be black");
     if (ambient_alone)
         diag_help(b->diag, d, "give the materials an `ambient` colour, or add a point light");
+    else if (scene->light_count > 0)
+        diag_help(b->diag, d, "give a material a `diffuse` colour, or a light a `color`, that is not black");
     else
         diag_help(b->diag, d, "add one, or remove `lights` for the default ones");
 }

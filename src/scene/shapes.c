@@ -64,7 +64,7 @@ static void add_info(struct builder *b, const struct placement *at, enum primiti
 /* Room for one more primitive of a kind and its number; false when there can be no more. */
 static bool make_room(struct builder *b, const struct placement *at, void **array, uint32_t **number,
                       uint32_t count, uint32_t *room, size_t size) {
-    if (count >= PRIMITIVE_MAX - 1 || b->set->primitives.count >= UINT32_MAX - 1) {
+    if (count >= PRIMITIVE_MAX - 1) {
         diag_error(b->diag, at->span, "limit-objects", "more than %d primitives of one kind",
                    PRIMITIVE_MAX - 1);
         return false;
@@ -74,6 +74,12 @@ static bool make_room(struct builder *b, const struct placement *at, void **arra
     *number = builder_grow(b, *number, count, &number_room, sizeof **number);
     (*number)[count] = b->set->primitives.count;
     return true;
+}
+
+static void report_out_of_range(struct builder *b, struct span span, const char *what) {
+    struct diagnostic *d = diag_error(b->diag, span, "flat-transform",
+                                      "%s is flattened, or its size or place is out of range", what);
+    diag_help(b->diag, d, "its sizes and transforms together must lie within 1e-100 to 1e100");
 }
 
 static void add_sphere(struct builder *b, const struct placement *at, double radius) {
@@ -116,8 +122,7 @@ void instance_add(struct builder *b, struct span span, affine world_from_object,
     struct primitives *p = &b->set->primitives;
     affine inverse;
     if (!affine_invert(world_from_object, &inverse)) {
-        diag_error(b->diag, span, "flat-transform",
-                   "what is placed here is flattened, or its size or place is out of range");
+        report_out_of_range(b, span, "what is placed here");
         return;
     }
     void *array = p->instances;
@@ -294,13 +299,6 @@ static bool placement_of(struct builder *b, const struct object_value *shape,
     }
 }
 
-static void report_out_of_range(struct builder *b, const struct object_value *shape) {
-    struct diagnostic *d =
-        diag_error(b->diag, shape->span, "flat-transform",
-                   "%s is flattened, or its size or place is out of range", shape->kind->title);
-    diag_help(b->diag, d, "its sizes and transforms together must lie within 1e-100 to 1e100");
-}
-
 /* Whether the unit ball stays a ball, of a size and at a place that can be turned back. */
 static bool is_round(affine map, double *radius) {
     return affine_is_similarity(map, radius) && *radius > 1e-100 && *radius < 1e100 &&
@@ -326,7 +324,7 @@ void shape_build(struct builder *b, const struct object_value *shape, const stru
         return;
     }
     if (!affine_invert(at.world_from_object, &object_from_world)) {
-        report_out_of_range(b, shape);
+        report_out_of_range(b, shape->span, shape->kind->title);
         return;
     }
     if (form)

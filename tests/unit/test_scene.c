@@ -1,6 +1,7 @@
 /* From a text to flat arrays: places, materials, defaults and the hash. */
 #include "base/elementary.h"
 #include "loading.h"
+#include "scene/builder.h"
 
 /* ---- Two texts that must become the same primitives, to rounding ---- */
 
@@ -652,6 +653,28 @@ static void errors_of_an_earlier_scene_do_not_stop_this_one(void **state) {
     unload(&l);
 }
 
+/* As if a scene had as many of each kind as there may be already. */
+static void one_more_than_may_be_of_a_kind(void **state) {
+    (void)state;
+    static const char text[] = "define: {row: {objects: [{for: {i: 20}, sphere: {center: [i, 0, 0]}}]}}\n"
+                               "scene: [{sphere: {}}, {square: {}}, {cone: {}}, {use: row}]";
+    struct loaded l = {0};
+    struct lang_sink sink;
+    struct builder *builder = scene_begin(&l.arena, &l.diag, &l.scene, &sink);
+    struct primitives *p = &builder->set->primitives;
+    p->sphere_count = p->flat_count = p->quadric_count = p->instance_count = PRIMITIVE_MAX - 1;
+    const struct lang_input input = loading_input(&l.memory, text, &sink);
+    assert_non_null(lang_read(&l.memory, &l.diag, &input).file);
+    assert_int_equal(l.diag.errors, 4);
+    for (const struct diagnostic *d = l.diag.first; d; d = d->next) {
+        assert_string_equal(d->code, "limit-objects");
+        assert_string_equal(d->message, "more than 1073741823 primitives of one kind");
+        assert_int_equal(d->place.line, 2);
+    }
+    assert_int_equal(p->count, 0);
+    unload(&l);
+}
+
 /* ---- The hash ---- */
 
 static struct hash hash_of(const char *text) {
@@ -823,6 +846,7 @@ int main(void) {
         cmocka_unit_test(defaults_are_those_of_the_grammar),
         cmocka_unit_test(empty_mappings_change_nothing),
         cmocka_unit_test(errors_of_an_earlier_scene_do_not_stop_this_one),
+        cmocka_unit_test(one_more_than_may_be_of_a_kind),
     };
     return cmocka_run_group_tests_name("rows", tests, NULL, NULL) +
            cmocka_run_group_tests_name("scene", others, NULL, NULL);
