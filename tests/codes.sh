@@ -15,13 +15,13 @@ pending=''
 elsewhere='
 cannot-read         no scene: tests/formats/expected.json
 cannot-write        no scene: tests/formats.sh
-format-differs      a mistake in Monge: none is known that gives it
+format-differs      a mistake in Monge, none is known that gives it: tests/unit/test_format.c
 include-outside     a scene of a stranger: tests/unit/test_diagnostics.c
 limit-file-bytes    a file of over 1 GiB: tests/unit/test_diagnostics.c
 limit-memory        a scene of over 8 GiB: tests/unit/test_diagnostics.c
-limit-objects       more primitives than there is memory for
+limit-objects       more primitives than there is memory for: tests/unit/test_scene.c
 odd-key             for monge fmt alone: tests/fmt.sh
-out-of-memory       a system without memory
+out-of-memory       a system without memory: tests/unit/test_memory.c
 unknown-parameter   a value from outside: tests/unit/test_diagnostics.c
 '
 
@@ -69,6 +69,54 @@ check "tests/errors/ and tests/import/ (-) have each of the codes (+)" same "$wo
 while read -r code why; do
     file=$(grep -o 'tests/[^ ]*' <<<"$why") && check "$code is in $file" grep -qw -e "$code" "$file"
 done <<<"$elsewhere"
+
+# ---- Each text is seen ----
+
+# The texts in the calls that report, as `FILE:LINE<tab>regular expression`: what is filled in matches anything.
+texts_of_src() {
+    awk '
+    function flush() {
+        if (length(text) > 2 && text !~ /^[a-z]+(-[a-z]+)+$/) print FILENAME ":" line "\t" pattern(text)
+        text = ""
+    }
+    function pattern(text) {
+        gsub(/\\"/, "\"", text)
+        gsub(/\\\\/, "\\", text)
+        gsub(/[][\\.*^$(){}+?|]/, "[&]", text)
+        gsub(/\[\^\]/, "\\^", text)
+        gsub(/%%/, "\001", text)
+        gsub(/%[-0-9]*(\[[.*]\])*[0-9]*[lz]*[a-z]/, ".*", text)
+        gsub(/\001/, "%", text)
+        return text
+    }
+    {
+        rest = $0
+        while (match(rest, /"([^"\\]|\\.)*"|[^ ]/)) {
+            token = substr(rest, RSTART, RLENGTH)
+            if (!depth) {
+                if (!match(rest, / (diag_(error|warning|failure|help|note|related)|wrong|wrong_value|bad|slip)\(/)) break
+                depth = 1
+                line = FNR
+            } else if (token ~ /^"/) {
+                text = text substr(token, 2, length(token) - 2)
+            } else {
+                flush()
+                depth += (token == "(") - (token == ")")
+            }
+            rest = substr(rest, RSTART + RLENGTH)
+        }
+    }' src/*.c src/{base,lang,scene,render}/*.c
+}
+known_texts() { # in C, one that is cut into pieces is put together
+    cat tests/{errors,import}/*.txt tests/*.sh
+    cat tests/unit/*.c | tr '\n' ' ' | sed 's/\\"/\x01/g; s/" *"//g; s/"/\n/g; s/\x01/"/g'
+}
+known_texts >"$work/known"
+texts_of_src >"$work/texts"
+while IFS=$'\t' read -r place text; do
+    check "$place: a test knows its text, $text" grep -qE -e "$text" "$work/known"
+done <"$work/texts"
+check "there are texts" [ "$(wc -l <"$work/texts")" -gt 400 ]
 
 # ---- The severities are those of the code ----
 
