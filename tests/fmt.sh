@@ -144,7 +144,7 @@ cat >told <<'END'
 END
 ok "an odd key is told" diff -u told err
 printf 'scene: [] # \342\200\250\n' | "$monge" fmt - 2>err
-printf '<stdin>:1:13: error[bad-character]: %s\n    1 | scene: [] # \342\200\250\n      |             ^ remove it\n' \
+printf '<stdin>:1:13: error[bad-character]: %s\n    1 | scene: [] # \n      |             ^ remove it\n' \
     'a line separator (U+2028) or paragraph separator (U+2029)' >told
 ok "a separator is told" diff -u told err
 

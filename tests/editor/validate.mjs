@@ -30,6 +30,7 @@ const EXCEPTIONS = {
     param_range_template: "values of parameters and their ranges, which a schema cannot compare",
     param_value: "only the loader knows what a parameter stands for",
     point_words: "a word may be the name of a parameter",
+    scope_template: "a word may be the name of a parameter",
     size_expression: "only the loader knows what an expression gives",
     text_long: "a word may be the name of a parameter",
     text_long_utf8: "a word may be the name of a parameter",
