@@ -28,7 +28,7 @@ struct hit {
     struct crossing crossing;
     const struct primitives *set; /* that the primitive is in: the scene's or a geometry's */
     primitive_ref ref;            /* in `set` */
-    uint32_t material;            /* MATERIAL_INHERITED only where no instance around has one */
+    uint32_t material;            /* of the scene's */
     struct occurrence which;
 };
 

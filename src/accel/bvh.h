@@ -39,14 +39,21 @@ struct bvh {
 };
 
 /* Of one set of primitives. Every shape is in one of the two trees, an instance in each that the hierarchy
- * of its geometry has something in. Whether MATERIAL_INHERITED is clear depends on the instance around:
- * where a geometry is placed both with clear and with other materials it has two of these, so that a
- * search never has to sort out what it finds. */
+ * of its geometry has something in. Whether a slot is clear depends on the instances around: a geometry has
+ * one of these for each choice of clear slots that it is placed with, so that a search never has to sort
+ * out what it finds. */
 struct accel {
     const struct primitives *primitives;
     const struct accel **placed; /* by index of instance: the hierarchy of its geometry */
     const struct bvh *opaque, *clear;
 };
+
+/* The material in the scene of a primitive within the instances of `chain`, outermost first. */
+static inline uint32_t material_in_scene(const struct instance *const *chain, uint32_t depth,
+                                         uint32_t material) {
+    while (material & MATERIAL_SLOT) material = material_around(chain[--depth], material);
+    return material;
+}
 
 static inline bool bvh_is_empty(const struct bvh *bvh) { return !bvh->node_count && !bvh->unbounded_count; }
 

@@ -200,17 +200,16 @@ static const struct instance *instance_of(const struct primitives *p, uint32_t n
 
 /* Sets what `which` tells: the primitive and its material. */
 static void resolve(const struct accel *accel, struct hit *hit) {
-    uint32_t inherited = MATERIAL_INHERITED;
+    const struct instance *chain[INSTANCE_MAX_DEPTH];
     const struct occurrence *which = &hit->which;
     for (uint32_t i = 0; i < which->depth; i++) {
-        const struct instance *instance = instance_of(accel->primitives, which->number[i]);
-        if (instance->material != MATERIAL_INHERITED) inherited = instance->material;
-        accel = accel->placed[instance - accel->primitives->instances];
+        chain[i] = instance_of(accel->primitives, which->number[i]);
+        accel = accel->placed[chain[i] - accel->primitives->instances];
     }
     const struct primitive_info *info = &accel->primitives->info[which->number[which->depth]];
     hit->set = accel->primitives;
     hit->ref = info->ref;
-    hit->material = info->material == MATERIAL_INHERITED ? inherited : info->material;
+    hit->material = material_in_scene(chain, which->depth, info->material);
 }
 
 static inline void occurrence_copy(struct occurrence *to, const struct occurrence *from) {

@@ -25,7 +25,7 @@ static const char *name_of(const struct examination *e, uint32_t origin) {
 }
 
 static bool is_clear(const struct scene *scene, uint32_t material) {
-    return material == MATERIAL_INHERITED || vec3_max_abs(scene->materials[material].refraction) > 0.0;
+    return vec3_max_abs(scene->materials[material].refraction) > 0.0;
 }
 
 /* ---- Solids around a point ---- */
