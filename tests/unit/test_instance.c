@@ -314,7 +314,7 @@ static bool check_oracle(const struct pair *s, ray r, double t_min, struct hit *
     struct oracle o = {.s = s};
     const struct occurrence top = {0};
     oracle_search(&o, &s->instanced.primitives, r, t_min, top);
-    const bool found = accel_nearest(s->accel, r, t_min, INFINITY, hit);
+    const bool found = accel_nearest(s->accel, NULL, r, t_min, INFINITY, hit);
     assert_int_equal(found, o.found);
     if (!found) return false;
     if (hit->crossing.t != o.t || !occurrence_equal(&hit->which, &o.which))
@@ -395,22 +395,22 @@ static void the_same_as_flattened(void **state) {
             const ray one = random_ray(&r, s, size);
             struct hit hit, want;
             double t_min = 0.0;
-            while (accel_nearest(s->flat_accel, one, t_min, INFINITY, &want)) {
-                assert_true(accel_nearest(s->accel, one, t_min, INFINITY, &hit));
+            while (accel_nearest(s->flat_accel, NULL, one, t_min, INFINITY, &want)) {
+                assert_true(accel_nearest(s->accel, NULL, one, t_min, INFINITY, &hit));
                 check_hit(s, one, &hit, &want, size);
                 t_min = want.crossing.t + 1e-9 * (100 + want.crossing.t);
                 hits++;
             }
             t_min = 0.0;
-            while (accel_nearest_clear(s->flat_accel, one, t_min, 1.0, &want)) {
-                assert_true(accel_nearest_clear(s->accel, one, t_min, 1.0, &hit));
+            while (accel_nearest_clear(s->flat_accel, NULL, one, t_min, 1.0, &want)) {
+                assert_true(accel_nearest_clear(s->accel, NULL, one, t_min, 1.0, &hit));
                 check_hit(s, one, &hit, &want, size);
                 assert_true(clear[hit.material]);
                 t_min = want.crossing.t + 1e-9 * (100 + want.crossing.t);
                 clears++;
             }
-            const bool any = accel_any(s->flat_accel, one, 0.0, 1.0);
-            assert_int_equal(accel_any(s->accel, one, 0.0, 1.0), any);
+            const bool any = accel_any(s->flat_accel, NULL, one, 0.0, 1.0);
+            assert_int_equal(accel_any(s->accel, NULL, one, 0.0, 1.0), any);
             blocked += any;
         }
         pair_end(s);
@@ -445,7 +445,7 @@ static void errors_hold(void **state) {
             const ray one = {from,
                              vec3_sub(vec3_madd(box3_center(box), size, random_vec3(&r, -0.3, 0.3)), from)};
             struct hit hit, again;
-            if (!accel_nearest(s->accel, one, 0.0, INFINITY, &hit)) continue;
+            if (!accel_nearest(s->accel, NULL, one, 0.0, INFINITY, &hit)) continue;
             const struct surface surface = accel_surface(s->accel, one, &hit);
             vec3 out = surface.normal;
             if (vec3_dot(one.dir, out) > 0.0) {
@@ -458,7 +458,7 @@ static void errors_hold(void **state) {
             if (!(vec3_dot(dir, out) > 0.0)) continue;
             const ray leaving = {vec3_madd(surface.point, surface.error, out), dir};
             tried++;
-            if (accel_nearest(s->accel, leaving, 0.0, INFINITY, &again) &&
+            if (accel_nearest(s->accel, NULL, leaving, 0.0, INFINITY, &again) &&
                 occurrence_equal(&again.which, &hit.which))
                 fail_msg("round %d: a ray at %g off the surface hits it again after %g", round, surface.error,
                          again.crossing.t);
@@ -494,7 +494,7 @@ static struct monge_film *render(const struct scene *scene, const struct accel *
     struct monge_film *film = film_new(
         &scene->settings, (struct monge_region){0, 0, scene->settings.width, scene->settings.height});
     assert_non_null(film);
-    assert_true(render_film(scene, accel, &job, film, &stats));
+    assert_true(render_film(scene, accel, &job, film, &stats, NULL));
     return film;
 }
 
@@ -571,8 +571,8 @@ static void a_camera_in_glass(void **state) {
         struct pair *s = glass_pair(orthographic);
         struct media_origin in, flat_in;
         const ray r = {s->instanced.camera.eye, s->instanced.camera.direction};
-        media_at(&s->instanced, s->accel, r, &in);
-        media_at(&s->flat, s->flat_accel, r, &flat_in);
+        media_at(&s->instanced, s->accel, NULL, r, &in);
+        media_at(&s->flat, s->flat_accel, NULL, r, &flat_in);
         assert_int_equal(in.media.count, 3); /* the large ball, of water, and both small ones */
         assert_int_equal(flat_in.media.count, 3);
         for (int i = 0; i < in.media.count; i++) {
@@ -594,7 +594,7 @@ static void too_many_media(void **state) {
         add_instance(&s->instanced.primitives, 0, affine_scale(vec3_all(1 + (i * 7) % 40)), GLASS);
     pair_build(s);
     struct media_origin in;
-    media_at(&s->instanced, s->accel, (ray){{0, 0, 0.5}, {0, 1, 1}}, &in);
+    media_at(&s->instanced, s->accel, NULL, (ray){{0, 0, 0.5}, {0, 1, 1}}, &in);
     assert_int_equal(in.media.count, MEDIA_MAX);
     for (uint32_t i = 0; i < MEDIA_MAX; i++) {
         assert_int_equal(in.media.inside[i].which->depth, 1);
@@ -642,7 +642,7 @@ static void ten_million_balls(void **state) {
         const uint32_t n = random_below(&r, 10000000);
         const double dx = random_below(&r, 200) * 0x1p-10, dz = random_below(&r, 200) * 0x1p-10;
         struct hit hit;
-        assert_true(accel_nearest(s->accel, (ray){{n + dx, 5, dz}, {0, -2, 0}}, 0.0, INFINITY, &hit));
+        assert_true(accel_nearest(s->accel, NULL, (ray){{n + dx, 5, dz}, {0, -2, 0}}, 0.0, INFINITY, &hit));
         assert_near(hit.crossing.t, 0.5 * (5.0 - sqrt(0.16 - dx * dx - dz * dz)), 1e-12, "t");
         assert_int_equal(hit.which.depth, 7);
         assert_int_equal(hit.material, GLASS);
@@ -650,8 +650,8 @@ static void ten_million_balls(void **state) {
         for (int k = 0; k < 7; k++) digits = 10 * digits + hit.which.number[k];
         assert_int_equal(digits, n);
         assert_int_equal(hit.which.number[7], 0);
-        assert_false(accel_any(s->accel, (ray){{n + dx, 5, dz}, {0, -2, 0}}, 0.0, INFINITY));
-        assert_false(accel_nearest(s->accel, (ray){{n + 0.5, 5, dz}, {0, -2, 0}}, 0.0, INFINITY, &hit));
+        assert_false(accel_any(s->accel, NULL, (ray){{n + dx, 5, dz}, {0, -2, 0}}, 0.0, INFINITY));
+        assert_false(accel_nearest(s->accel, NULL, (ray){{n + 0.5, 5, dz}, {0, -2, 0}}, 0.0, INFINITY, &hit));
     }
     assert_near(accel_support(s->accel, (vec3){1, 0, 0}), 9999999.4, 20, "to the end");
     assert_near(accel_support(s->accel, (vec3){-1, 0, 0}), 0.4, 20, "to the begin");
@@ -673,7 +673,7 @@ static void the_deepest_nesting(void **state) {
     add_instance(&s->instanced.primitives, INSTANCE_MAX_DEPTH - 1, affine_scale(vec3_all(2)), CLAY);
     pair_build(s);
     struct hit hit;
-    assert_true(accel_nearest(s->accel, (ray){{62, 9, 0}, {0, -1, 0}}, 0.0, INFINITY, &hit));
+    assert_true(accel_nearest(s->accel, NULL, (ray){{62, 9, 0}, {0, -1, 0}}, 0.0, INFINITY, &hit));
     assert_near(hit.crossing.t, 7, 1e-12, "t");
     assert_int_equal(hit.which.depth, INSTANCE_MAX_DEPTH);
     assert_int_equal(hit.material, GLASS);
