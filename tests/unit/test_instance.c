@@ -742,6 +742,7 @@ static void dark_scenes(void **state) {
         add_instance(add_geometry(s, 1), 0, AFFINE_IDENTITY, rows[i].inner);
         add_instance(&s->instanced.primitives, 1, AFFINE_IDENTITY, rows[i].outer);
         s->instanced.materials = two;
+        s->instanced.material_count = COUNT(two);
         s->instanced.default_lights = false;
         s->instanced.lights = l.scene.lights;
         s->instanced.light_count = l.scene.light_count;

@@ -134,6 +134,20 @@ static struct row {
                                                                      "- {use: three, transform: {translate: "
                                                                      "[2, 0, -4]}}\n",
      2, 9},
+    {"equal arguments within groups of other materials",
+     HEAD
+     "define: {tower: {objects: [{for: {i: 20}, sphere: {radius: 0.4, center: [0, 0.3 * i, 0]}}, {box: {min: "
+     "[0, 0, 0], max: [1, 2, 1]}, material: base}]}}\n"
+     "scene: [{use: tower, material: " RED "}, {use: tower, material: " BLUE
+     ", transform: {translate: [3, 0, 0]}}, {use: tower, material: " RED
+     ", transform: {translate: [6, 0, 0]}}]\n",
+     HEAD "define: {tower: {params: {one: {}}, objects: [{for: {i: 20}, sphere: {radius: 0.4, center: [0, "
+          "0.3 * i, "
+          "0]}, material: one}, {box: {min: [0, 0, 0], max: [1, 2, 1]}, material: base}]}}\n"
+          "scene: [{use: tower, with: {one: " RED "}}, {use: tower, with: {one: " BLUE
+          "}, transform: {translate: [3, 0, 0]}}, {use: tower, with: {one: " RED
+          "}, transform: {translate: [6, 0, 0]}}]\n",
+     1, 1},
 };
 
 static uint32_t geometries_of(const char *text) {
@@ -223,12 +237,39 @@ static void fingerprints_know_the_materials(void **state) {
     assert_memory_not_equal(&first, &other, sizeof first);
 }
 
+/* Of a frame that the scene is moved to, and of one that it is loaded at. */
+static void frames_have_their_own_materials(void **state) {
+    (void)state;
+    static const char text[] = HEAD SHARED_TOWER "animation: {frames: 2}\n"
+                                                 "scene:\n"
+                                                 "- {sphere: {}, material: " RED "}\n"
+                                                 "- {box: {}, material: {diffuse: blue}}\n"
+                                                 "- {use: tower, with: {one: {diffuse: 'i == 0 ? red : "
+                                                 "blue'}, two: glass}, for: {i: 2}, when: i + 1 == "
+                                                 "frame, transform: {translate: [3, 0, 0]}}\n";
+    const struct monge_load_options second = {.frame = 2};
+    struct monge_diagnostics *diag = monge_diagnostics_new();
+    struct monge_scene *moved = monge_load_memory("t", text, strlen(text), NULL, diag),
+                       *loaded = monge_load_memory("t", text, strlen(text), &second, diag);
+    assert_true(moved && loaded && monge_scene_prepare(moved) && monge_scene_set_frame(moved, 2, diag));
+    const struct monge_settings settings = monge_scene_settings(moved);
+    struct monge_film *one = monge_render(moved, &settings, NULL, NULL, NULL),
+                      *two = monge_render(loaded, &settings, NULL, NULL, NULL);
+    assert_memory_equal(monge_film_pixels(one), monge_film_pixels(two), 72 * 48 * 3 * sizeof(float));
+    monge_film_free(one);
+    monge_film_free(two);
+    monge_scene_free(moved);
+    monge_scene_free(loaded);
+    monge_diagnostics_free(diag);
+}
+
 int main(void) {
-    struct CMUnitTest tests[COUNT(rows) + 3];
+    struct CMUnitTest tests[COUNT(rows) + 4];
     for (size_t i = 0; i < COUNT(rows); i++)
         tests[i] = (struct CMUnitTest){rows[i].name, check_sharing, NULL, NULL, &rows[i]};
     tests[COUNT(rows)] = (struct CMUnitTest)cmocka_unit_test(other_shapes_are_other_geometries);
     tests[COUNT(rows) + 1] = (struct CMUnitTest)cmocka_unit_test(other_patterns_are_other_geometries);
     tests[COUNT(rows) + 2] = (struct CMUnitTest)cmocka_unit_test(fingerprints_know_the_materials);
+    tests[COUNT(rows) + 3] = (struct CMUnitTest)cmocka_unit_test(frames_have_their_own_materials);
     return cmocka_run_group_tests_name("sharing", tests, NULL, NULL);
 }
