@@ -102,7 +102,8 @@ struct monge_film *monge_render(struct monge_scene *scene, const struct monge_se
     struct monge_film *film = film_new(settings, region ? *region : whole);
     if (!film) return NULL;
     film->scene = fingerprint(&scene->scene, settings);
-    const bool done = render_film(&scene->scene, scene->accel, job ? job : &no_job, film, stats);
+    const bool done = render_film(&scene->scene, scene->accel, job ? job : &no_job, film, stats,
+                                  job && job->diag ? &job->diag->list : NULL);
     stats->build_seconds = prepared_before ? 0.0 : built - begin;
     stats->render_seconds = seconds() - built;
     if (done) return film;

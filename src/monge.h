@@ -231,7 +231,8 @@ struct monge_job {
     void (*progress)(void *context, uint64_t done,
                      uint64_t total); /* pixels; from any one thread at a time; may be NULL */
     void *context;
-    const atomic_bool *cancel; /* set it to stop early; may be NULL */
+    const atomic_bool *cancel; /* set it to stop early: it takes less than a second; may be NULL */
+    struct monge_diagnostics *diag; /* what is wrong with the scene when it cannot be rendered; may be NULL */
 };
 
 struct monge_stats {
@@ -244,8 +245,8 @@ struct monge_stats {
 struct monge_film;
 
 /* Renders `region` (NULL: the whole picture) with settings that monge_settings_check accepts. job
- * and stats may be NULL. NULL when cancelled, out of memory, or the region is empty or not inside
- * the picture. The caller frees the film. The same bits for every number of threads and every way
+ * and stats may be NULL. NULL when cancelled, out of memory, the region is empty or not inside the picture,
+ * or the scene is too much for a ray: that alone is an error in job->diag. The caller frees the film. The same bits for every number of threads and every way
  * to cut a picture into regions. */
 struct monge_film *monge_render(struct monge_scene *scene, const struct monge_settings *settings,
                                 const struct monge_region *region, const struct monge_job *job,

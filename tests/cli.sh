@@ -506,6 +506,27 @@ cd ..
 
 # ---- Limits ----
 
+# Two at one place, in each of 28 levels.
+cat >nest.yaml <<'END'
+define:
+  nest:
+    params: {levels: 0, balls: 16}
+    objects:
+      - {when: levels == 0, for: {i: balls}, sphere: {center: [i % 16, 0, 0]}}
+      - {when: levels > 0, for: {i: 2}, use: nest, with: {levels: levels - 1, balls: balls}}
+params: {levels: 28, balls: 16}
+scene:
+  - sphere: {center: [0, 5, 0]}
+  - use: nest
+    with: {levels: levels, balls: balls}
+END
+exits 1 render nest.yaml "${small[@]}" -o nest.png; err_has 'nest.yaml:10:5: error[limit-instances]'; no_out; missing nest.png
+ok "it says no more than that" [ "$(grep -c -e error -e memory err)" -eq 1 ]
+exits 1 render nest.yaml -D levels=28,3 "${small[@]}" -o 'nest-{levels}.png'; err_has '1 rendered, 1 failed'
+missing nest-28.png; is_png nest-3.png; no_temporaries
+exits 1 render nest.yaml "${small[@]}" --format json -o nest.png; err_has '"code": "limit-instances"'; missing nest.png
+exits 0 check nest.yaml
+
 exits 0 check one.yaml --limit file_bytes=1k --limit memory_bytes=1G --limit steps=2M --limit=objects=1 --untrusted
 exits 2 check one.yaml --limit file_bytes=10; err_has 'limit-file-bytes'
 exits 1 check one.yaml --limit nesting=1; err_has 'limit-nesting'
@@ -707,6 +728,9 @@ if have perl; then
         ok "SIG${row% *} ends monge by the same signal" [ "$status" -eq "${row#* }" ]
         missing p.png; missing p.json; no_temporaries; no_out
     done
+    # 2^18 times a geometry of as many balls at one place: one ray takes hours
+    signalled TERM 0.8 render nest.yaml -D levels=18 -D balls=100000 --size 1x1 -o p.png
+    ok "SIGTERM while a ray is on its way" [ "$status" -eq 15 ]; missing p.png; no_temporaries
     mkfifo pipe
     sleep 3 | signalled TERM 0.3 render - -o p.png
     status=$(cat wait)

@@ -18,6 +18,7 @@ cannot-write        no scene: tests/formats.sh
 format-differs      a mistake in Monge, none is known that gives it: tests/unit/test_format.c
 include-outside     a scene of a stranger: tests/unit/test_diagnostics.c
 limit-file-bytes    a file of over 1 GiB: tests/unit/test_diagnostics.c
+limit-instances     a render, which check has not: tests/cli.sh
 limit-memory        a scene of over 8 GiB: tests/unit/test_diagnostics.c
 limit-objects       more primitives than there is memory for: tests/unit/test_scene.c
 odd-key             for monge fmt alone: tests/fmt.sh

@@ -4,10 +4,25 @@
 #ifndef MONGE_ACCEL_ACCEL_H
 #define MONGE_ACCEL_ACCEL_H
 
+#include <stdatomic.h>
+
 #include "base/arena.h"
 #include "shape/shape.h"
 
 struct accel;
+
+/* How often one question may go into an instance. Only where instances of instances lie at one place does a ray
+ * meet so many: they double with each level. */
+enum { ACCEL_MAX_ENTRIES = 1 << 20 };
+
+/* Ends questions early, those of one thread. Starts with `cancel` alone. Once it has stopped, what the questions
+ * that have it answer means nothing, and they answer at once. Where they may have none, NULL, a question that
+ * needs more entries finds nothing further. */
+struct accel_watch {
+    const atomic_bool *cancel; /* stops them when it is set; NULL: nothing does */
+    enum { ACCEL_GOES_ON, ACCEL_CANCELLED, ACCEL_TOO_MANY_ENTRIES } stop;
+    uint32_t number; /* TOO_MANY_ENTRIES: of the instance in the scene's set */
+};
 
 /* Builds hierarchies over the primitives and the geometries that their instances place, all of which
  * must outlive them; they live in `arena`. The same trees for the same primitives, always.
@@ -28,21 +43,23 @@ struct hit {
     struct crossing crossing;
     const struct primitives *set; /* that the primitive is in: the scene's or a geometry's */
     primitive_ref ref;            /* in `set` */
-    uint32_t material;            /* MATERIAL_INHERITED only where no instance around has one */
+    uint32_t material;            /* of the scene's */
     struct occurrence which;
 };
 
 /* The hit with the smallest t in t_min < t <= t_max; of equal ones, that of the lowest number in the
  * outermost set where they differ. So the answer depends on the primitives alone, not on the tree.
  * False, leaving *hit alone, where there is none. Thread-safe, allocates nothing. */
-bool accel_nearest(const struct accel *accel, ray r, double t_min, double t_max, struct hit *hit);
+bool accel_nearest(const struct accel *accel, struct accel_watch *watch, ray r, double t_min, double t_max,
+                   struct hit *hit);
 
 /* Whether anything that is not clear is hit in t_min < t < t_max: the end is left out, so that a ray
  * to a light stops before it. Thread-safe, allocates nothing. */
-bool accel_any(const struct accel *accel, ray r, double t_min, double t_max);
+bool accel_any(const struct accel *accel, struct accel_watch *watch, ray r, double t_min, double t_max);
 
 /* As accel_nearest, of the clear primitives alone. */
-bool accel_nearest_clear(const struct accel *accel, ray r, double t_min, double t_max, struct hit *hit);
+bool accel_nearest_clear(const struct accel *accel, struct accel_watch *watch, ray r, double t_min,
+                         double t_max, struct hit *hit);
 
 /* The surface, in world space, at a hit that this ray had. */
 struct surface accel_surface(const struct accel *accel, ray r, const struct hit *hit);
@@ -50,11 +67,11 @@ struct surface accel_surface(const struct accel *accel, ray r, const struct hit 
 /* Calls visit for every clear primitive whose bounds hold the origin of `r`, in an order that is always
  * the same: with its hit, of which the crossing is not set, and the ray in the space that its set is in,
  * with the same t. Thread-safe, allocates nothing. */
-void accel_around(const struct accel *accel, ray r,
+void accel_around(const struct accel *accel, struct accel_watch *watch, ray r,
                   void (*visit)(void *context, const struct hit *hit, ray in_set), void *context);
 
 /* The same for what is not clear. */
-void accel_around_opaque(const struct accel *accel, ray r,
+void accel_around_opaque(const struct accel *accel, struct accel_watch *watch, ray r,
                          void (*visit)(void *context, const struct hit *hit, ray in_set), void *context);
 
 /* A world-space box around all that one of the scene's instances places, by its index; infinite where that is. */

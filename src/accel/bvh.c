@@ -4,8 +4,12 @@
 
 #include <assert.h>
 #include <float.h>
+#include <inttypes.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "base/table.h"
 
 enum { BINS = 16 };
 /* Of a test of two boxes and of one primitive, measured as about that, in tests of a sphere. */
@@ -97,19 +101,23 @@ static bool bounds_are_finite(const struct bounds *b) {
     return true;
 }
 
+/* Which materials of a set are clear. */
+struct clear {
+    const bool *materials; /* of the scene; NULL: none */
+    uint64_t slots;        /* bit by bit */
+};
+
+static bool is_clear(const struct clear *clear, uint32_t material) {
+    if (material & MATERIAL_SLOT) return clear->slots >> (material & ~MATERIAL_SLOT) & 1;
+    return clear->materials && clear->materials[material];
+}
+
 /* What a tree is built of: the part of accel->primitives that is clear, or the part that is not. */
 struct choice {
     const struct accel *accel;
-    const bool *clear;    /* by material; NULL: none is */
-    bool inherited_clear; /* what MATERIAL_INHERITED stands for */
+    struct clear clear;
     bool which;
 };
-
-static bool is_chosen(const struct choice *choice, uint32_t material) {
-    const bool clear =
-        material == MATERIAL_INHERITED ? choice->inherited_clear : choice->clear && choice->clear[material];
-    return clear == choice->which;
-}
 
 static void add_unbounded(struct builder *b, primitive_ref ref) { b->unbounded[b->unbounded_count++] = ref; }
 
@@ -175,7 +183,7 @@ static void collect(struct builder *b, const struct choice *choice) {
         const struct primitive_info *info = &primitives->info[i];
         if (primitive_ref_kind(info->ref) == PRIMITIVE_INSTANCE)
             collect_instance(b, choice, info->ref);
-        else if (is_chosen(choice, info->material))
+        else if (is_clear(&choice->clear, info->material) == choice->which)
             add_bounded(b, info->ref, shape_bounds(primitives, info->ref));
     }
 }
@@ -424,76 +432,85 @@ static const struct bvh *bvh_build(struct arena *arena, const struct choice *cho
 
 /* ---- Geometries ---- */
 
-/* What is to be known of a geometry, and what is built of it; by what MATERIAL_INHERITED stands for in it:
- * something that is clear (1) or not (0). One without primitives that inherit has 0 alone. */
+/* One of the hierarchies of a geometry. */
+struct variant {
+    uint64_t clear; /* slots, bit by bit */
+    const struct accel *built;
+    struct variant *next;
+};
+
 struct geometry {
-    uint32_t depth; /* instances within each other, below its own primitives */
-    bool inherits;
-    bool needed[2];
-    const struct accel *built[2];
+    uint32_t depth;                 /* instances within each other, below its own primitives */
+    struct variant *first, *latest; /* all of them; the one that was asked for last */
 };
 
 struct build {
     struct arena *arena;
     const struct primitives *geometries;
     struct geometry *known; /* by index of geometry */
+    struct table variants;  /* by geometry and clear slots */
     const bool *clear;
 };
 
-/* Which of a geometry's two hierarchies an instance places. */
-static bool variant_of(const struct build *build, const struct instance *instance, bool inherited_clear) {
-    if (!build->known[instance->geometry].inherits) return false;
-    if (instance->material == MATERIAL_INHERITED) return inherited_clear;
-    return build->clear && build->clear[instance->material];
+/* What the instance places, in a set with these clear materials. New variants are added. */
+static struct variant *variant_of(struct build *build, const struct instance *instance,
+                                  const struct clear *around) {
+    struct geometry *g = &build->known[instance->geometry];
+    uint64_t clear = 0;
+    for (uint32_t i = 0; i < build->geometries[instance->geometry].slots; i++)
+        clear |= (uint64_t)is_clear(around, instance->materials[i]) << i;
+    if (g->latest && g->latest->clear == clear) return g->latest;
+    char name[32];
+    snprintf(name, sizeof name, "%" PRIu32 " %" PRIx64, instance->geometry, clear);
+    g->latest = table_find(&build->variants, name);
+    if (g->latest) return g->latest;
+    g->latest = arena_alloc(build->arena, sizeof *g->latest);
+    *g->latest = (struct variant){.clear = clear, .next = g->first};
+    table_put(build->arena, &build->variants, arena_text(build->arena, name, strlen(name)), g->latest);
+    return g->first = g->latest;
 }
 
-static void survey(struct build *build, uint32_t index) {
+static void measure_depth(struct build *build, uint32_t index) {
     const struct primitives *p = &build->geometries[index];
     struct geometry *g = &build->known[index];
-    for (uint32_t i = 0; i < p->count; i++)
-        if (primitive_ref_kind(p->info[i].ref) != PRIMITIVE_INSTANCE)
-            g->inherits |= p->info[i].material == MATERIAL_INHERITED;
     for (uint32_t i = 0; i < p->instance_count; i++) {
         assert(p->instances[i].geometry < index);
         const struct geometry *inner = &build->known[p->instances[i].geometry];
-        g->inherits |= inner->inherits && p->instances[i].material == MATERIAL_INHERITED;
         if (g->depth <= inner->depth) g->depth = inner->depth + 1;
     }
     assert(g->depth < INSTANCE_MAX_DEPTH);
 }
 
-static void mark_needed(struct build *build, const struct primitives *p, bool inherited_clear) {
-    for (uint32_t i = 0; i < p->instance_count; i++)
-        build->known[p->instances[i].geometry].needed[variant_of(build, &p->instances[i], inherited_clear)] =
-            true;
+static void find_variants(struct build *build, const struct primitives *p, uint64_t clear_slots) {
+    const struct clear clear = {build->clear, clear_slots};
+    for (uint32_t i = 0; i < p->instance_count; i++) variant_of(build, &p->instances[i], &clear);
 }
 
-static struct accel *build_set(const struct build *build, const struct primitives *p, bool inherited_clear) {
+static struct accel *build_set(struct build *build, const struct primitives *p, uint64_t clear_slots) {
+    const struct clear clear = {build->clear, clear_slots};
     struct accel *accel = arena_alloc(build->arena, sizeof *accel);
     accel->primitives = p;
     accel->placed = arena_array(build->arena, p->instance_count, sizeof *accel->placed);
     for (uint32_t i = 0; i < p->instance_count; i++)
-        accel->placed[i] = build->known[p->instances[i].geometry]
-                               .built[variant_of(build, &p->instances[i], inherited_clear)];
-    accel->opaque = bvh_build(build->arena, &(struct choice){accel, build->clear, inherited_clear, false});
-    accel->clear = bvh_build(build->arena, &(struct choice){accel, build->clear, inherited_clear, true});
+        accel->placed[i] = variant_of(build, &p->instances[i], &clear)->built;
+    accel->opaque = bvh_build(build->arena, &(struct choice){accel, clear, false});
+    accel->clear = bvh_build(build->arena, &(struct choice){accel, clear, true});
     return accel;
 }
 
 struct accel *accel_build(struct arena *arena, const struct primitives *primitives,
                           const struct primitives *geometries, uint32_t geometry_count, const bool *clear) {
     struct geometry *known = arena_array(arena, geometry_count, sizeof *known);
-    struct build build = {arena, geometries, known, clear};
-    for (uint32_t i = 0; i < geometry_count; i++) survey(&build, i);
-    mark_needed(&build, primitives, false);
+    struct build build = {.arena = arena, .geometries = geometries, .known = known, .clear = clear};
+    for (uint32_t i = 0; i < geometry_count; i++) measure_depth(&build, i);
+    find_variants(&build, primitives, 0);
     for (uint32_t i = geometry_count; i-- > 0;)
-        for (int variant = 0; variant < 2; variant++)
-            if (known[i].needed[variant]) mark_needed(&build, &geometries[i], variant);
+        for (struct variant *v = known[i].first; v; v = v->next)
+            find_variants(&build, &geometries[i], v->clear);
     for (uint32_t i = 0; i < geometry_count; i++)
-        for (int variant = 0; variant < 2; variant++)
-            if (known[i].needed[variant])
-                known[i].built[variant] = build_set(&build, &geometries[i], variant);
-    return build_set(&build, primitives, false);
+        for (struct variant *v = known[i].first; v; v = v->next)
+            v->built = build_set(&build, &geometries[i], v->clear);
+    return build_set(&build, primitives, 0);
 }
 
 box3 accel_bounds(const struct accel *accel) {

@@ -39,14 +39,48 @@ struct bvh {
 };
 
 /* Of one set of primitives. Every shape is in one of the two trees, an instance in each that the hierarchy
- * of its geometry has something in. Whether MATERIAL_INHERITED is clear depends on the instance around:
- * where a geometry is placed both with clear and with other materials it has two of these, so that a
- * search never has to sort out what it finds. */
+ * of its geometry has something in. Whether a slot is clear depends on the instances around: a geometry has
+ * one of these for each choice of clear slots that it is placed with, so that a search never has to sort
+ * out what it finds. */
 struct accel {
     const struct primitives *primitives;
     const struct accel **placed; /* by index of instance: the hierarchy of its geometry */
     const struct bvh *opaque, *clear;
 };
+
+/* What a question has left of its entries. */
+struct budget {
+    uint32_t entries;
+    const atomic_bool *cancel;
+    struct accel_watch *watch; /* may be NULL */
+};
+
+/* False: the question is not to be asked. */
+static inline bool budget_begin(struct budget *b, struct accel_watch *watch) {
+    static const atomic_bool never;
+    *b = (struct budget){ACCEL_MAX_ENTRIES, watch && watch->cancel ? watch->cancel : &never, watch};
+    if (watch && !watch->stop && atomic_load_explicit(b->cancel, memory_order_relaxed))
+        watch->stop = ACCEL_CANCELLED;
+    return !watch || !watch->stop;
+}
+
+/* One more entry, within the scene's instance of this number. False: the question ends. */
+static inline bool budget_take(struct budget *b, uint32_t number) {
+    const bool cancelled = atomic_load_explicit(b->cancel, memory_order_relaxed);
+    if (b->entries && !cancelled) return b->entries--, true;
+    if (b->watch) {
+        b->watch->stop = cancelled ? ACCEL_CANCELLED : ACCEL_TOO_MANY_ENTRIES;
+        b->watch->number = number;
+    }
+    return false;
+}
+
+/* The material in the scene of a primitive within the instances of `chain`, outermost first. */
+static inline uint32_t material_in_scene(const struct instance *const *chain, uint32_t depth,
+                                         uint32_t material) {
+    while (material & MATERIAL_SLOT) material = material_around(chain[--depth], material);
+    return material;
+}
 
 static inline bool bvh_is_empty(const struct bvh *bvh) { return !bvh->node_count && !bvh->unbounded_count; }
 

@@ -12,8 +12,11 @@ struct stack {
 struct around {
     void (*visit)(void *context, const struct hit *hit, ray in_set);
     void *context;
-    bool clear;     /* which of the two trees */
+    bool clear; /* which of the two trees */
+    bool over;  /* the budget is used up */
+    struct budget budget;
     struct hit hit; /* being made: `which` leads to the set that the search is in */
+    const struct instance *chain[INSTANCE_MAX_DEPTH]; /* the same way */
 };
 
 static bool node_holds(const struct bvh_node *node, vec3 p) {
@@ -22,41 +25,41 @@ static bool node_holds(const struct bvh_node *node, vec3 p) {
            (double)b[2] <= p.z && p.z <= (double)b[5];
 }
 
-static void around_set(struct around *a, const struct accel *accel, ray r, uint32_t inherited);
+static void around_set(struct around *a, const struct accel *accel, ray r);
 
-static void around_run(struct around *a, const struct accel *accel, ray r, uint32_t inherited,
-                       const primitive_ref *refs, uint32_t count) {
+static void around_run(struct around *a, const struct accel *accel, ray r, const primitive_ref *refs,
+                       uint32_t count) {
     const struct primitives *p = accel->primitives;
     struct occurrence *which = &a->hit.which;
-    for (uint32_t i = 0; i < count; i++) {
+    for (uint32_t i = 0; i < count && !a->over; i++) {
         const uint32_t number = which->number[which->depth] = primitives_number(p, refs[i]);
         if (primitive_ref_kind(refs[i]) == PRIMITIVE_INSTANCE) {
             const uint32_t index = primitive_ref_index(refs[i]);
             const struct instance *instance = &p->instances[index];
-            which->depth++;
-            around_set(a, accel->placed[index], affine_ray(&instance->object_from_world, r),
-                       instance->material == MATERIAL_INHERITED ? inherited : instance->material);
+            a->over |= !budget_take(&a->budget, which->number[0]);
+            if (a->over) return;
+            a->chain[which->depth++] = instance;
+            around_set(a, accel->placed[index], affine_ray(&instance->object_from_world, r));
             which->depth--;
             continue;
         }
         a->hit.set = p;
         a->hit.ref = refs[i];
-        a->hit.material =
-            p->info[number].material == MATERIAL_INHERITED ? inherited : p->info[number].material;
+        a->hit.material = material_in_scene(a->chain, which->depth, p->info[number].material);
         a->visit(a->context, &a->hit, r);
     }
 }
 
-static void around_set(struct around *a, const struct accel *accel, ray r, uint32_t inherited) {
+static void around_set(struct around *a, const struct accel *accel, ray r) {
     const struct bvh *bvh = accel_tree(accel, a->clear);
-    around_run(a, accel, r, inherited, bvh->unbounded, bvh->unbounded_count);
+    around_run(a, accel, r, bvh->unbounded, bvh->unbounded_count);
     if (!bvh->node_count) return;
     struct stack stack = {.depth = 1}; /* the root */
-    while (stack.depth > 0) {
+    while (stack.depth > 0 && !a->over) {
         const struct bvh_node *node = &bvh->nodes[stack.node[--stack.depth]];
         while (node_holds(node, r.org)) {
             if (node->count) {
-                around_run(a, accel, r, inherited, bvh->refs + node->first, node->count);
+                around_run(a, accel, r, bvh->refs + node->first, node->count);
                 break;
             }
             stack.node[stack.depth++] = node->first + 1;
@@ -65,16 +68,20 @@ static void around_set(struct around *a, const struct accel *accel, ray r, uint3
     }
 }
 
-void accel_around(const struct accel *accel, ray r,
-                  void (*visit)(void *context, const struct hit *hit, ray in_set), void *context) {
-    struct around a = {.visit = visit, .context = context, .clear = true};
-    around_set(&a, accel, r, MATERIAL_INHERITED);
+static void around_begin(struct around *a, const struct accel *accel, struct accel_watch *watch, ray r) {
+    if (budget_begin(&a->budget, watch)) around_set(a, accel, r);
 }
 
-void accel_around_opaque(const struct accel *accel, ray r,
+void accel_around(const struct accel *accel, struct accel_watch *watch, ray r,
+                  void (*visit)(void *context, const struct hit *hit, ray in_set), void *context) {
+    struct around a = {.visit = visit, .context = context, .clear = true};
+    around_begin(&a, accel, watch, r);
+}
+
+void accel_around_opaque(const struct accel *accel, struct accel_watch *watch, ray r,
                          void (*visit)(void *context, const struct hit *hit, ray in_set), void *context) {
     struct around a = {.visit = visit, .context = context, .clear = false};
-    around_set(&a, accel, r, MATERIAL_INHERITED);
+    around_begin(&a, accel, watch, r);
 }
 
 box3 accel_placed_bounds(const struct accel *accel, uint32_t index) {

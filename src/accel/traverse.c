@@ -15,6 +15,7 @@ struct box_ray {
 struct search {
     double t_min;
     bool clear; /* which trees are searched */
+    struct budget budget;
     struct crossing best;
     struct occurrence which;           /* of the best; the number UINT32_MAX: none yet */
     uint32_t path[INSTANCE_MAX_DEPTH]; /* numbers of the instances that the search is in, outermost first */
@@ -95,6 +96,7 @@ static inline bool search_run(struct search *s, const struct level *level, const
     return false;
 }
 
+/* True ends the search: an any-hit one that has found one, and each whose budget is used up. */
 static bool search_instance(struct search *s, const struct level *around, uint32_t index, bool any);
 
 /* The same of a run that may have instances in it. */
@@ -142,7 +144,7 @@ static inline const struct bvh_node *pop(const struct bvh *bvh, struct stack *st
     return NULL;
 }
 
-/* True when an any-hit search has found one; else s->best is the nearest. */
+/* True when an any-hit search has found one, or the budget is used up; else s->best is the nearest. */
 static inline bool search_tree(struct search *s, const struct level *level, bool any) {
     const struct bvh *bvh = accel_tree(level->accel, s->clear);
     if (bvh->unbounded_count && search_mixed_run(s, level, bvh->unbounded, bvh->unbounded_count, any))
@@ -165,7 +167,9 @@ static inline bool search_tree(struct search *s, const struct level *level, bool
     return false;
 }
 
-static void search_nearest(struct search *s, const struct level *level) { search_tree(s, level, false); }
+static bool search_nearest(struct search *s, const struct level *level) {
+    return search_tree(s, level, false);
+}
 static bool search_any(struct search *s, const struct level *level) { return search_tree(s, level, true); }
 
 static inline void level_begin(struct level *level, const struct accel *accel, uint32_t depth, ray r) {
@@ -177,21 +181,22 @@ static inline void level_begin(struct level *level, const struct accel *accel, u
 
 static bool search_instance(struct search *s, const struct level *around, uint32_t index, bool any) {
     const struct primitives *primitives = around->accel->primitives;
+    s->path[around->depth] = primitives->instance_number[index];
+    if (!budget_take(&s->budget, s->path[0])) return true;
     const ray r = affine_ray(&primitives->instances[index].object_from_world, around->r);
     struct level level;
     level_begin(&level, around->accel->placed[index], around->depth + 1, r);
-    s->path[around->depth] = primitives->instance_number[index];
-    if (any) return search_any(s, &level);
-    search_nearest(s, &level);
-    return false;
+    return any ? search_any(s, &level) : search_nearest(s, &level);
 }
 
 /* ---- The questions ---- */
 
-static inline void search_begin(struct search *s, double t_min, double t_max) {
+/* False: not to be searched. */
+static inline bool search_begin(struct search *s, struct accel_watch *watch, double t_min, double t_max) {
     s->t_min = t_min;
     s->best.t = t_max;
     s->which.number[0] = UINT32_MAX;
+    return budget_begin(&s->budget, watch);
 }
 
 static const struct instance *instance_of(const struct primitives *p, uint32_t number) {
@@ -200,17 +205,16 @@ static const struct instance *instance_of(const struct primitives *p, uint32_t n
 
 /* Sets what `which` tells: the primitive and its material. */
 static void resolve(const struct accel *accel, struct hit *hit) {
-    uint32_t inherited = MATERIAL_INHERITED;
+    const struct instance *chain[INSTANCE_MAX_DEPTH];
     const struct occurrence *which = &hit->which;
     for (uint32_t i = 0; i < which->depth; i++) {
-        const struct instance *instance = instance_of(accel->primitives, which->number[i]);
-        if (instance->material != MATERIAL_INHERITED) inherited = instance->material;
-        accel = accel->placed[instance - accel->primitives->instances];
+        chain[i] = instance_of(accel->primitives, which->number[i]);
+        accel = accel->placed[chain[i] - accel->primitives->instances];
     }
     const struct primitive_info *info = &accel->primitives->info[which->number[which->depth]];
     hit->set = accel->primitives;
     hit->ref = info->ref;
-    hit->material = info->material == MATERIAL_INHERITED ? inherited : info->material;
+    hit->material = material_in_scene(chain, which->depth, info->material);
 }
 
 static inline void occurrence_copy(struct occurrence *to, const struct occurrence *from) {
@@ -226,34 +230,36 @@ static bool search_result(const struct search *s, const struct accel *accel, str
     return true;
 }
 
-bool accel_nearest(const struct accel *accel, ray r, double t_min, double t_max, struct hit *hit) {
+bool accel_nearest(const struct accel *accel, struct accel_watch *watch, ray r, double t_min, double t_max,
+                   struct hit *hit) {
     struct level level;
     struct search s;
     level_begin(&level, accel, 0, r);
-    search_begin(&s, t_min, t_max);
+    if (!search_begin(&s, watch, t_min, t_max)) return false;
     s.clear = false;
-    search_nearest(&s, &level);
+    if (search_nearest(&s, &level)) return false;
     s.clear = true;
-    search_nearest(&s, &level);
+    if (search_nearest(&s, &level)) return false;
     return search_result(&s, accel, hit);
 }
 
-bool accel_nearest_clear(const struct accel *accel, ray r, double t_min, double t_max, struct hit *hit) {
+bool accel_nearest_clear(const struct accel *accel, struct accel_watch *watch, ray r, double t_min,
+                         double t_max, struct hit *hit) {
     if (bvh_is_empty(accel->clear)) return false; /* most scenes */
     struct level level;
     struct search s;
     level_begin(&level, accel, 0, r);
-    search_begin(&s, t_min, t_max);
+    if (!search_begin(&s, watch, t_min, t_max)) return false;
     s.clear = true;
-    search_nearest(&s, &level);
+    if (search_nearest(&s, &level)) return false;
     return search_result(&s, accel, hit);
 }
 
-bool accel_any(const struct accel *accel, ray r, double t_min, double t_max) {
+bool accel_any(const struct accel *accel, struct accel_watch *watch, ray r, double t_min, double t_max) {
     struct level level;
     struct search s;
     level_begin(&level, accel, 0, r);
-    search_begin(&s, t_min, t_max);
+    if (!search_begin(&s, watch, t_min, t_max)) return true;
     s.clear = false;
     return search_any(&s, &level);
 }

@@ -59,22 +59,28 @@ static bool write_film(const struct monge_film *film, const char *path, struct r
     return written;
 }
 
+/* *status is set where there is none: of a signal, memory, or what is wrong with the scene. */
 static struct monge_film *render_film(const struct option_value *option, const char *title,
-                                      struct monge_scene *scene, const struct monge_region *region,
-                                      struct picture *picture) {
+                                      const struct load *load, struct picture *picture, enum status *status) {
     const enum progress_wish wish = (enum progress_wish)option[OPTION_PROGRESS].choice;
     struct progress progress;
-    struct monge_job job = {.threads = option[OPTION_THREADS].number[0], .cancel = interrupt_flag()};
+    const struct monge_region *region = &picture->region;
+    const unsigned errors = monge_diagnostics_errors(load->diag);
+    struct monge_job job = {
+        .threads = option[OPTION_THREADS].number[0], .cancel = interrupt_flag(), .diag = load->diag};
     if (progress_wanted(wish, option[OPTION_QUIET].given)) {
         job.progress = progress_update;
         job.context = &progress;
     }
     progress_begin(&progress, title);
-    struct monge_film *film = monge_render(scene, &picture->settings, region, &job, &picture->stats);
+    struct monge_film *film = monge_render(load->scene, &picture->settings, region, &job, &picture->stats);
     progress_end(&progress);
-    if (!film && !interrupt_pending())
+    if (film) return film;
+    const bool wrong = monge_diagnostics_errors(load->diag) != errors;
+    *status = wrong ? STATUS_NO : STATUS_TROUBLE;
+    if (!wrong && !interrupt_pending())
         say_error("no memory for a picture of %ux%u", region->width, region->height);
-    return film;
+    return NULL;
 }
 
 /* "king"; of many pictures "king  picture 2 of 5", of frames "king  frame 12 of 48". */
@@ -108,19 +114,21 @@ static enum status choose_settings(const struct work *work, const char *scene, c
 /* Everything after loading. A signal in here ends the program once nothing is half done. */
 static enum status render_scene(struct work *work, const struct output *output, const struct load *load,
                                 struct picture *picture) {
-    const enum status settings = choose_settings(work, output->scene, load, picture);
-    if (settings != STATUS_YES) return settings;
+    enum status status = choose_settings(work, output->scene, load, picture);
+    if (status != STATUS_YES) return status;
     char *title = progress_title(work, output, load, picture->frame);
     interrupt_defer();
-    struct monge_film *film = render_film(work->args.option, title, load->scene, &picture->region, picture);
+    struct monge_film *film = render_film(work->args.option, title, load, picture, &status);
+    report_show(&work->loader.report, load->diag);
     const double rendered = clock_seconds();
     picture->done = film && write_film(film, picture->output, &work->loader.report);
+    if (film && !picture->done) status = STATUS_TROUBLE;
     picture->write_seconds = clock_seconds() - rendered;
     picture->peak_memory_bytes = stats_peak_memory();
     monge_film_free(film);
     interrupt_settle();
     free(title);
-    return picture->done ? STATUS_YES : STATUS_TROUBLE;
+    return status;
 }
 
 /* The scene as it is now, which began to be loaded at `begun`. */

@@ -11,7 +11,8 @@ struct examination {
     struct arena *arena;
     struct diagnostics *diag;
     struct view view;
-    uint32_t *placed; /* how many primitives each origin has placed, in all sets */
+    uint32_t *placed;          /* how many primitives each origin has placed, in all sets */
+    struct accel_watch *watch; /* where it has stopped nothing is known of what is around a point */
 };
 
 static struct span span_of(const struct examination *e, uint32_t origin) {
@@ -25,7 +26,7 @@ static const char *name_of(const struct examination *e, uint32_t origin) {
 }
 
 static bool is_clear(const struct scene *scene, uint32_t material) {
-    return material == MATERIAL_INHERITED || vec3_max_abs(scene->materials[material].refraction) > 0.0;
+    return vec3_max_abs(scene->materials[material].refraction) > 0.0;
 }
 
 /* ---- Solids around a point ---- */
@@ -48,7 +49,7 @@ static void add_solid(void *context, const struct hit *hit, ray in_set) {
 
 static void solids_at(const struct examination *e, vec3 point, struct solids *out) {
     out->count = 0;
-    accel_around_opaque(e->accel, (ray){point, {0, 0, 1}}, add_solid, out);
+    accel_around_opaque(e->accel, e->watch, (ray){point, {0, 0, 1}}, add_solid, out);
 }
 
 static bool is_among(const struct occurrence *which, const struct solids *solids) {
@@ -193,7 +194,7 @@ static bool is_room(const struct examination *e, const struct occurrence *which)
 
 static void examine_eye(const struct examination *e, const struct solids *around_eye) {
     for (int i = 0; i < around_eye->count; i++) {
-        if (is_room(e, &around_eye->which[i])) continue;
+        if (is_room(e, &around_eye->which[i]) || e->watch->stop) continue;
         const uint32_t origin = around_eye->origin[i];
         struct diagnostic *d = diag_warning(e->diag, e->scene->eye_span, "camera-inside",
                                             "the camera is inside of %s: only that from within will be seen",
@@ -335,7 +336,8 @@ static void count_placed(struct examination *e, const struct primitives *p) {
 
 void examine_scene(const struct scene *scene, const struct accel *accel, bool moves, struct arena *arena,
                    struct diagnostics *diag) {
-    struct examination e = {.scene = scene, .accel = accel, .arena = arena, .diag = diag};
+    struct accel_watch watch = {.cancel = NULL};
+    struct examination e = {.scene = scene, .accel = accel, .arena = arena, .diag = diag, .watch = &watch};
     struct solids around_eye = {.count = 0};
     e.view = camera_view(scene, accel, scene->settings.width, scene->settings.height);
     e.placed = arena_array(arena, scene->origins.count + 1, sizeof *e.placed);
@@ -348,6 +350,7 @@ void examine_scene(const struct scene *scene, const struct accel *accel, bool mo
     for (uint32_t i = 0; i < scene->geometry_count; i++) examine_empty(&e, &scene->geometries[i]);
     if (moves) return;
     examine_twins(&e);
+    if (watch.stop) return;
     examine_hidden(&e, &around_eye);
     for (uint32_t i = 0; i < scene->light_count; i++) examine_light(&e, i, &around_eye);
 }

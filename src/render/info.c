@@ -34,56 +34,73 @@ static uint64_t *placings(const struct scene *scene, struct arena *arena) {
     return often;
 }
 
-/* Primitives of each geometry that take the material of the instance, nested ones too. */
-static uint64_t *inheriting(const struct scene *scene, struct arena *arena) {
-    uint64_t *many = arena_array(arena, scene->geometry_count + 1, sizeof *many);
+/* The counts of what the instance places; NULL: the primitive is none. */
+static const uint64_t *slots_of(const struct primitives *p, uint64_t *const *many, uint32_t number) {
+    const primitive_ref ref = p->info[number].ref;
+    return primitive_ref_kind(ref) == PRIMITIVE_INSTANCE
+               ? many[p->instances[primitive_ref_index(ref)].geometry]
+               : NULL;
+}
+
+/* Primitives of each geometry by their slot, nested ones too. */
+static uint64_t **count_slots(const struct scene *scene, struct arena *arena) {
+    uint64_t **many = arena_array(arena, scene->geometry_count + 1, sizeof *many);
     for (uint32_t g = 0; g < scene->geometry_count; g++) {
         const struct primitives *p = &scene->geometries[g];
+        many[g] = arena_array(arena, p->slots + 1, sizeof *many[g]);
         for (uint32_t i = 0; i < p->count; i++) {
-            const struct primitive_info *at = &p->info[i];
-            const struct instance *instance = primitive_ref_kind(at->ref) == PRIMITIVE_INSTANCE
-                                                  ? &p->instances[primitive_ref_index(at->ref)]
-                                                  : NULL;
-            if (!instance && at->material == MATERIAL_INHERITED) many[g] = plus(many[g], 1);
-            if (instance && instance->material == MATERIAL_INHERITED)
-                many[g] = plus(many[g], many[instance->geometry]);
+            uint32_t count;
+            const uint32_t *materials = primitives_materials(p, scene->geometries, i, &count);
+            const uint64_t *inner = slots_of(p, many, i);
+            for (uint32_t k = 0; k < count; k++) {
+                if (!(materials[k] & MATERIAL_SLOT)) continue;
+                uint64_t *slot = &many[g][materials[k] & ~MATERIAL_SLOT];
+                *slot = plus(*slot, inner ? inner[k] : 1);
+            }
         }
     }
     return many;
 }
 
+/* The materials of one primitive. `inner`: how many each of an instance's is for. */
+static void count_materials(struct info *info, const struct scene *scene, const struct primitives *p,
+                            uint32_t number, uint64_t often, const uint64_t *inner) {
+    uint32_t several;
+    const uint32_t *materials = primitives_materials(p, scene->geometries, number, &several);
+    for (uint32_t k = 0; k < several; k++) {
+        if (materials[k] & MATERIAL_SLOT) continue;
+        count(&info->materials[materials[k]], inner ? times(often, inner[k]) : often);
+    }
+}
+
 /* The primitives of one set, that is placed `often`. */
 static void count_set(struct info *info, const struct scene *scene, const struct primitives *p,
-                      uint64_t often, const uint64_t *inherits) {
+                      uint64_t often, uint64_t *const *slots) {
     for (uint32_t i = 0; i < p->use_count; i++)
         info->templates[p->uses[i]].uses = plus(info->templates[p->uses[i]].uses, often);
     for (uint32_t i = 0; i < p->count; i++) {
         const struct primitive_info *at = &p->info[i];
         const struct origin *origin = &scene->origins.list[at->origin];
         const bool is_instance = primitive_ref_kind(at->ref) == PRIMITIVE_INSTANCE;
-        const struct instance *instance = is_instance ? &p->instances[primitive_ref_index(at->ref)] : NULL;
         struct info_template *template =
             origin->template == ORIGIN_NO_TEMPLATE ? NULL : &info->templates[origin->template];
         if (template) template->bytes += bytes_of(at->ref);
         count(is_instance ? &info->instances : &info->all, often);
         if (!is_instance) count(&info->kinds[origin->kind], often);
         if (!is_instance && template) count(&template->primitives, often);
-        const uint32_t material = instance ? instance->material : at->material;
-        if (material == MATERIAL_INHERITED) continue;
-        struct info_count *uses = &info->materials[material];
-        uses->stored++;
-        uses->placed = plus(uses->placed, instance ? times(often, inherits[instance->geometry]) : often);
+        count_materials(info, scene, p, i, often, slots_of(p, slots, i));
     }
 }
 
 struct info info_count(const struct scene *scene, struct arena *arena) {
     struct info info = {.template_count = scene->template_count};
-    const uint64_t *often = placings(scene, arena), *inherits = inheriting(scene, arena);
+    const uint64_t *often = placings(scene, arena);
+    uint64_t *const *slots = count_slots(scene, arena);
     info.materials = arena_array(arena, scene->material_count + 1, sizeof *info.materials);
     info.templates = arena_array(arena, scene->template_count + 1, sizeof *info.templates);
     for (uint32_t i = 0; i < scene->template_count; i++) info.templates[i].name = scene->templates[i];
-    count_set(&info, scene, &scene->primitives, 1, inherits);
+    count_set(&info, scene, &scene->primitives, 1, slots);
     for (uint32_t g = 0; g < scene->geometry_count; g++)
-        count_set(&info, scene, &scene->geometries[g], often[g], inherits);
+        count_set(&info, scene, &scene->geometries[g], often[g], slots);
     return info;
 }

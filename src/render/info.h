@@ -25,7 +25,7 @@ enum { INFO_KINDS = 256 };
 struct info {
     struct info_count all, kinds[INFO_KINDS]; /* primitives; by kind of the grammar */
     struct info_count instances;
-    struct info_count *materials;    /* of each; with MATERIAL_INHERITED as its instances have it */
+    struct info_count *materials;    /* of each; slots as the instances have them */
     struct info_template *templates; /* of each of the scene's that is used */
     uint32_t template_count;
     uint64_t scene_bytes, accel_bytes;

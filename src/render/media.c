@@ -80,11 +80,12 @@ static void add_body(void *context, const struct hit *hit, ray in_set) {
     n->bodies[at] = (struct body){end, hit->which, n->scene->materials[hit->material].index};
 }
 
-void media_at(const struct scene *scene, const struct accel *accel, ray r, struct media_origin *out) {
+void media_at(const struct scene *scene, const struct accel *accel, struct accel_watch *watch, ray r,
+              struct media_origin *out) {
     struct nesting nesting;
     nesting.count = 0;
     nesting.scene = scene;
-    accel_around(accel, r, add_body, &nesting);
+    accel_around(accel, watch, r, add_body, &nesting);
     out->media.count = nesting.count;
     for (int i = 0; i < nesting.count; i++) {
         out->occurrences[i] = nesting.bodies[i].which;

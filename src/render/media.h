@@ -31,6 +31,7 @@ struct media media_enter(const struct scene *scene, const struct media *media, c
 struct media media_leave(const struct media *media, const struct hit *hit, bool *was_inside);
 
 /* The media at the origin of a ray. Nested bodies are told apart by which the ray leaves last. */
-void media_at(const struct scene *scene, const struct accel *accel, ray r, struct media_origin *out);
+void media_at(const struct scene *scene, const struct accel *accel, struct accel_watch *watch, ray r,
+              struct media_origin *out);
 
 #endif

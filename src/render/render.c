@@ -10,6 +10,8 @@ enum { TILE_SIZE = 1 };
 enum { TILE_SIZE = 32 }; /* pixels a side */
 #endif
 
+#define NO_INSTANCE UINT32_MAX
+
 /* One rendering, shared by its threads: each takes the next tile until none is left. */
 struct rendering {
     struct tracer tracer;
@@ -19,6 +21,7 @@ struct rendering {
     uint32_t tiles_across, tile_count;
     atomic_uint next_tile;
     atomic_uint_fast64_t pixels_done;
+    atomic_uint too_many_in;   /* the number of an instance where a ray was given up; NO_INSTANCE: none */
     atomic_flag reporting;     /* a thread is in job->progress */
     const vec3 *samples;       /* settings.samples places within a pixel, x and y in 0..1 */
     struct media_origin media; /* at the eye, for a perspective camera */
@@ -76,18 +79,29 @@ static void set_lights(struct arena *arena, struct rendering *rd, const struct s
 
 /* ---- Tiles ---- */
 
-static void render_pixel(const struct rendering *rd, uint32_t x, uint32_t y, uint64_t rays[MONGE_RAY_KINDS]) {
+static bool is_stopped(struct rendering *rd) {
+    return (rd->job->cancel && atomic_load(rd->job->cancel)) || atomic_load(&rd->too_many_in) != NO_INSTANCE;
+}
+
+/* Stops the others where the watch has stopped because of the scene. */
+static void tell_stop(struct rendering *rd, const struct accel_watch *watch) {
+    if (watch->stop == ACCEL_TOO_MANY_ENTRIES) atomic_store(&rd->too_many_in, watch->number);
+}
+
+static void render_pixel(struct rendering *rd, uint32_t x, uint32_t y, struct tracing *tracing) {
     const struct monge_settings *s = &rd->tracer.settings;
     const struct monge_region *region = &rd->film->region;
     vec3 sum = {0, 0, 0};
     for (uint32_t i = 0; i < s->samples; i++) {
+        if (is_stopped(rd)) return;
         const double px = ((double)(region->x + x) + rd->samples[i].x) / s->width;
         const double py = ((double)(region->y + y) + rd->samples[i].y) / s->height;
         const ray r = camera_ray(&rd->view, px, py);
         struct media_origin here;
-        if (rd->view.orthographic) media_at(rd->tracer.scene, rd->tracer.accel, r, &here);
+        if (rd->view.orthographic) media_at(rd->tracer.scene, rd->tracer.accel, &tracing->watch, r, &here);
         sum = vec3_add(
-            sum, trace_ray(&rd->tracer, r, rd->view.orthographic ? &here.media : &rd->media.media, rays));
+            sum, trace_ray(&rd->tracer, r, rd->view.orthographic ? &here.media : &rd->media.media, tracing));
+        tell_stop(rd, &tracing->watch);
     }
     float *pixel = film_pixel(rd->film, x, y);
     pixel[0] = (float)(sum.x / s->samples);
@@ -102,38 +116,41 @@ static void report(struct rendering *rd, uint64_t done) {
     atomic_flag_clear(&rd->reporting);
 }
 
-static bool is_cancelled(const struct rendering *rd) {
-    return rd->job->cancel && atomic_load(rd->job->cancel);
-}
-
-static void render_tile(struct rendering *rd, uint32_t tile, uint64_t rays[MONGE_RAY_KINDS]) {
+static void render_tile(struct rendering *rd, uint32_t tile, struct tracing *tracing) {
     const struct monge_region *region = &rd->film->region;
     const uint32_t x0 = tile % rd->tiles_across * TILE_SIZE, y0 = tile / rd->tiles_across * TILE_SIZE;
     const uint32_t x1 = x0 + TILE_SIZE < region->width ? x0 + TILE_SIZE : region->width;
     const uint32_t y1 = y0 + TILE_SIZE < region->height ? y0 + TILE_SIZE : region->height;
     for (uint32_t y = y0; y < y1; y++)
-        for (uint32_t x = x0; x < x1; x++) {
-            if (is_cancelled(rd)) return;
-            render_pixel(rd, x, y, rays);
-        }
+        for (uint32_t x = x0; x < x1; x++) render_pixel(rd, x, y, tracing);
+    if (is_stopped(rd)) return;
     const uint64_t pixels = (uint64_t)(x1 - x0) * (y1 - y0);
     report(rd, atomic_fetch_add(&rd->pixels_done, pixels) + pixels);
 }
 
 static void render_tiles(void *context, unsigned thread) {
     struct rendering *rd = context;
-    uint64_t rays[MONGE_RAY_KINDS] = {0};
+    struct tracing tracing = {.watch.cancel = rd->job->cancel};
     (void)thread;
     for (;;) {
         const uint32_t tile = atomic_fetch_add(&rd->next_tile, 1);
-        if (tile >= rd->tile_count || is_cancelled(rd)) break;
-        render_tile(rd, tile, rays);
+        if (tile >= rd->tile_count || is_stopped(rd)) break;
+        render_tile(rd, tile, &tracing);
     }
-    for (int kind = 0; kind < MONGE_RAY_KINDS; kind++) atomic_fetch_add(&rd->rays[kind], rays[kind]);
+    for (int kind = 0; kind < MONGE_RAY_KINDS; kind++) atomic_fetch_add(&rd->rays[kind], tracing.rays[kind]);
+}
+
+static void report_entries(struct diagnostics *diag, const struct scene *scene, uint32_t number) {
+    const struct span span = origins_span(&scene->origins, scene->primitives.info[number].origin);
+    struct diagnostic *d =
+        diag_error(diag, span, "limit-instances", "a ray comes into more than %d instances of templates here",
+                   ACCEL_MAX_ENTRIES);
+    diag_help(diag, d,
+              "instances at one place multiply with each level: move them apart, or place one alone");
 }
 
 bool render_film(const struct scene *scene, const struct accel *accel, const struct monge_job *job,
-                 struct monge_film *film, struct monge_stats *stats) {
+                 struct monge_film *film, struct monge_stats *stats, struct diagnostics *diag) {
     jmp_buf full;
     struct arena arena = {.on_full = &full};
     if (setjmp(full)) {
@@ -143,10 +160,13 @@ bool render_film(const struct scene *scene, const struct accel *accel, const str
     struct rendering rd = {.tracer = {.scene = scene, .accel = accel, .settings = film->settings},
                            .job = job,
                            .film = film,
+                           .too_many_in = NO_INSTANCE,
                            .reporting = ATOMIC_FLAG_INIT};
+    struct accel_watch watch = {.cancel = job->cancel};
     rd.view = camera_view(scene, accel, film->settings.width, film->settings.height);
     rd.samples = sample_places(&arena, film->settings.samples);
-    media_at(scene, accel, (ray){rd.view.eye, rd.view.forward}, &rd.media);
+    media_at(scene, accel, &watch, (ray){rd.view.eye, rd.view.forward}, &rd.media);
+    tell_stop(&rd, &watch);
     set_lights(&arena, &rd, scene);
     rd.tiles_across = (film->region.width + TILE_SIZE - 1) / TILE_SIZE;
     rd.tile_count = rd.tiles_across * ((film->region.height + TILE_SIZE - 1) / TILE_SIZE);
@@ -157,5 +177,7 @@ bool render_film(const struct scene *scene, const struct accel *accel, const str
     parallel_run(stats->threads, render_tiles, &rd);
     for (int kind = 0; kind < MONGE_RAY_KINDS; kind++) stats->rays[kind] = rd.rays[kind];
     arena_free(&arena);
-    return !is_cancelled(&rd);
+    const uint32_t too_many_in = atomic_load(&rd.too_many_in);
+    if (too_many_in != NO_INSTANCE && diag) report_entries(diag, scene, too_many_in);
+    return !is_stopped(&rd);
 }

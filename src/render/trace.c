@@ -9,7 +9,7 @@ static const double least_weight = 1e-5;
 /* One path through the tree of rays. */
 struct path {
     const struct tracer *tracer;
-    uint64_t *rays;
+    struct tracing *tracing;
     const struct media *media; /* at the origin of its ray */
     unsigned depth;            /* generation of its ray, from 1 */
     vec3 weight;               /* by which its light reaches the pixel */
@@ -29,12 +29,12 @@ static vec3 transmittance(const struct path *path, vec3 from, vec3 to) {
     const struct scene *scene = tracer->scene;
     const ray r = {from, vec3_sub(to, from)};
     const double before_one = 1.0 - 0x1p-53;
-    path->rays[MONGE_RAY_SHADOW]++;
-    if (accel_any(tracer->accel, r, 0.0, 1.0)) return vec3_all(0.0);
+    path->tracing->rays[MONGE_RAY_SHADOW]++;
+    if (accel_any(tracer->accel, &path->tracing->watch, r, 0.0, 1.0)) return vec3_all(0.0);
     vec3 through = vec3_all(1.0);
     struct hit hit;
     hit.crossing.t = 0.0;
-    while (accel_nearest_clear(tracer->accel, r, hit.crossing.t, before_one, &hit)) {
+    while (accel_nearest_clear(tracer->accel, &path->tracing->watch, r, hit.crossing.t, before_one, &hit)) {
         through = vec3_mul(through, scene->materials[hit.material].refraction);
         if (vec3_max_abs(through) < least_weight) return vec3_all(0.0);
     }
@@ -96,9 +96,9 @@ static vec3 shade_local(const struct path *path, const struct meeting *m) {
 /* What a secondary ray brings, times `factor`. `media` is at the ray's origin. */
 static vec3 follow_secondary(const struct path *from, ray r, vec3 factor, const struct media *media,
                              enum monge_ray kind) {
-    struct path path = {from->tracer, from->rays, media, from->depth + 1, vec3_mul(from->weight, factor)};
+    struct path path = {from->tracer, from->tracing, media, from->depth + 1, vec3_mul(from->weight, factor)};
     if (vec3_max_abs(path.weight) < least_weight) return vec3_all(0.0);
-    path.rays[kind]++;
+    path.tracing->rays[kind]++;
     return vec3_mul(factor, follow(&path, r));
 }
 
@@ -141,7 +141,7 @@ static vec3 follow(struct path *path, ray r) {
     const struct tracer *tracer = path->tracer;
     const struct scene *scene = tracer->scene;
     struct hit hit;
-    if (!accel_nearest(tracer->accel, r, 0.0, INFINITY, &hit))
+    if (!accel_nearest(tracer->accel, &path->tracing->watch, r, 0.0, INFINITY, &hit))
         return background_color(&scene->background, vec3_normalize(r.dir));
     struct meeting m = {.surface = accel_surface(tracer->accel, r, &hit),
                         .material = &scene->materials[hit.material],
@@ -154,9 +154,8 @@ static vec3 follow(struct path *path, ray r) {
     return vec3_add(local, shade_secondary(path, &m, &hit));
 }
 
-vec3 trace_ray(const struct tracer *tracer, ray r, const struct media *media,
-               uint64_t rays[MONGE_RAY_KINDS]) {
-    struct path path = {tracer, rays, media, 1, vec3_all(1.0)};
-    rays[MONGE_RAY_CAMERA]++;
+vec3 trace_ray(const struct tracer *tracer, ray r, const struct media *media, struct tracing *tracing) {
+    struct path path = {tracer, tracing, media, 1, vec3_all(1.0)};
+    tracing->rays[MONGE_RAY_CAMERA]++;
     return follow(&path, r);
 }

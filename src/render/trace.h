@@ -15,8 +15,14 @@ struct tracer {
     vec3 ambient; /* the sum of the ambient lights */
 };
 
-/* The linear colour seen along the ray, whose direction need not be unit. `media` is what its origin
- * is inside of. Adds to the counts of rays, of which each thread has its own. */
-vec3 trace_ray(const struct tracer *tracer, ray r, const struct media *media, uint64_t rays[MONGE_RAY_KINDS]);
+/* What a thread has of its own. */
+struct tracing {
+    uint64_t rays[MONGE_RAY_KINDS]; /* counts */
+    struct accel_watch watch;
+};
+
+/* The linear colour seen along the ray, whose direction need not be unit; of no meaning once the watch has
+ * stopped. `media` is what its origin is inside of. */
+vec3 trace_ray(const struct tracer *tracer, ray r, const struct media *media, struct tracing *tracing);
 
 #endif

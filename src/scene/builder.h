@@ -45,6 +45,9 @@ struct builder {
 
 #define NO_MATERIAL (UINT32_MAX - 1)
 
+/* While a set is gathered: the material that the instance will have where it stands. */
+#define MATERIAL_INHERITED UINT32_MAX
+
 /* Room for one more in an array of `count` in the scene's arena, twice as much when it is full. */
 void *builder_grow(struct builder *b, void *array, uint32_t count, uint32_t *room, size_t size);
 
@@ -77,9 +80,9 @@ void materials_check(struct builder *b);
 void shape_build(struct builder *b, const struct object_value *shape, const struct object_value *bounds,
                  affine world_from_node, uint32_t material);
 
-/* Adds an instance of a geometry of the scene. */
+/* Adds an instance of a geometry of the scene, whose slots get the materials. */
 void instance_add(struct builder *b, struct span span, affine world_from_object, uint32_t geometry,
-                  uint32_t material);
+                  const uint32_t *materials);
 
 /* ---- places.c: where things were written ---- */
 

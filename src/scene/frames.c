@@ -48,23 +48,29 @@ static bool same_quadrics(const struct quadric *a, const struct quadric *b, uint
     return true;
 }
 
-static bool same_instances(const struct instance *a, const struct instance *b, uint32_t count) {
+static bool same_instances(const struct instance *a, const struct instance *b, uint32_t count,
+                           const struct primitives *geometries) {
     for (uint32_t i = 0; i < count; i++)
-        if (a[i].geometry != b[i].geometry || a[i].material != b[i].material ||
-            !same_affine(&a[i].world_from_object, &b[i].world_from_object))
+        if (a[i].geometry != b[i].geometry ||
+            !same_affine(&a[i].world_from_object, &b[i].world_from_object) ||
+            !same_bits(a[i].materials, b[i].materials,
+                       geometries[a[i].geometry].slots * sizeof *a[i].materials))
             return false;
     return true;
 }
 
-static bool same_primitives(const struct primitives *a, const struct primitives *b) {
+/* The geometries that both place are the same. */
+static bool same_primitives(const struct primitives *a, const struct primitives *b,
+                            const struct primitives *geometries) {
     return a->count == b->count && a->sphere_count == b->sphere_count && a->flat_count == b->flat_count &&
            a->quadric_count == b->quadric_count && a->instance_count == b->instance_count &&
-           a->use_count == b->use_count && same_bits(a->info, b->info, a->count * sizeof *a->info) &&
+           a->use_count == b->use_count && a->slots == b->slots &&
+           same_bits(a->info, b->info, a->count * sizeof *a->info) &&
            same_bits(a->uses, b->uses, a->use_count * sizeof *a->uses) &&
            same_bits(a->spheres, b->spheres, a->sphere_count * sizeof *a->spheres) &&
            same_flats(a->flats, b->flats, a->flat_count) &&
            same_quadrics(a->quadrics, b->quadrics, a->quadric_count) &&
-           same_instances(a->instances, b->instances, a->instance_count);
+           same_instances(a->instances, b->instances, a->instance_count, geometries);
 }
 
 static bool is_clear(const struct material *m) { return vec3_max_abs(m->refraction) > 0.0; }
@@ -77,10 +83,8 @@ static bool same_clear(const struct scene *a, const struct scene *b) {
 }
 
 bool scene_same_shapes(const struct scene *a, const struct scene *b) {
-    if (a->geometry_count != b->geometry_count || !same_clear(a, b) ||
-        !same_primitives(&a->primitives, &b->primitives))
-        return false;
+    if (a->geometry_count != b->geometry_count || !same_clear(a, b)) return false;
     for (uint32_t i = 0; i < a->geometry_count; i++)
-        if (!same_primitives(&a->geometries[i], &b->geometries[i])) return false;
-    return true;
+        if (!same_primitives(&a->geometries[i], &b->geometries[i], a->geometries)) return false;
+    return same_primitives(&a->primitives, &b->primitives, a->geometries);
 }

@@ -59,33 +59,46 @@ void shape_hash(const struct primitives *p, primitive_ref ref, struct hash *hash
     hash_form(hash, p->quadrics[index].form);
 }
 
-static uint32_t material_of(const struct primitives *p, uint32_t number) {
-    const primitive_ref ref = p->info[number].ref;
-    return primitive_ref_kind(ref) == PRIMITIVE_INSTANCE ? p->instances[primitive_ref_index(ref)].material
-                                                         : p->info[number].material;
+/* A material by its values, a slot by its number; the last one is remembered. */
+struct material_hash {
+    struct hash hash;
+    uint32_t material; /* UINT32_MAX: none yet */
+};
+
+static void add_material(struct hash *hash, const struct scene *scene, uint32_t material,
+                         struct material_hash *last) {
+    if (material != last->material) {
+        hash_begin(&last->hash);
+        if (material & MATERIAL_SLOT)
+            hash_integer(&last->hash, material);
+        else
+            material_hash(&scene->materials[material], &last->hash);
+        last->material = material;
+    }
+    hash_integer(hash, last->hash.high);
+    hash_integer(hash, last->hash.low);
 }
 
-/* Materials by their values, at each primitive that has them: not by name or number, nor unused ones. */
+/* Materials at each primitive that has them: not by name or number, nor unused ones. */
 static void hash_primitives(struct hash *hash, const struct scene *scene, const struct primitives *p) {
-    struct hash material = {0, 0};
+    struct material_hash last = {.material = UINT32_MAX};
     hash_integer(hash, p->count);
     for (uint32_t i = 0; i < p->count; i++) {
-        const uint32_t index = material_of(p, i);
-        if (i == 0 || index != material_of(p, i - 1)) {
-            hash_begin(&material);
-            if (index != MATERIAL_INHERITED) material_hash(&scene->materials[index], &material);
-        }
-        hash_integer(hash, material.high);
-        hash_integer(hash, material.low);
-        hash_integer(hash, p->info[i].ref);
-        shape_hash(p, p->info[i].ref, hash);
+        const primitive_ref ref = p->info[i].ref;
+        uint32_t count;
+        const uint32_t *materials = primitives_materials(p, scene->geometries, i, &count);
+        for (uint32_t k = 0; k < count; k++) add_material(hash, scene, materials[k], &last);
+        hash_integer(hash, ref);
+        shape_hash(p, ref, hash);
     }
 }
 
-void primitives_hash(const struct primitives *p, struct hash *hash) {
+void primitives_hash(const struct primitives *p, const struct primitives *geometries, struct hash *hash) {
     hash_integer(hash, p->count);
     for (uint32_t i = 0; i < p->count; i++) {
-        hash_integer(hash, material_of(p, i));
+        uint32_t count;
+        const uint32_t *materials = primitives_materials(p, geometries, i, &count);
+        for (uint32_t k = 0; k < count; k++) hash_integer(hash, materials[k]);
         hash_integer(hash, p->info[i].ref);
         shape_hash(p, p->info[i].ref, hash);
     }

@@ -1,7 +1,9 @@
 /* Templates in use. What one contains is gathered in a set of its own, once; if that is worth it the set
- * becomes a geometry, and every use like it an instance. Sets that differ in their only material are one
- * geometry: the material is then the instance's. Small ones are carried out where they stand:
- * a ray goes into few primitives faster than into a space of their own. */
+ * becomes a geometry, and every use like it an instance. Sets that differ in their materials alone are one
+ * geometry: its primitives have slots, and each instance the materials. Small ones are carried out where
+ * they stand: a ray goes into few primitives faster than into a space of their own. */
+#include <string.h>
+
 #include "scene/builder.h"
 
 enum {
@@ -11,8 +13,9 @@ enum {
 /* What is known of uses with the same contents; where they are not exact, what became of the last one. */
 struct placed {
     enum { PLACED_NEW, PLACED_GATHERED, PLACED_CARRIED_OUT } state;
-    uint32_t geometry; /* GATHERED */
-    uint32_t material; /* GATHERED: of the instance, where it is not the level's: else MATERIAL_INHERITED */
+    uint32_t geometry;         /* GATHERED */
+    const uint32_t *materials; /* GATHERED: for the slots; MATERIAL_INHERITED: the level's */
+    const uint32_t *filled;    /* the same as they were last, with that of the level; NULL: not yet */
 };
 
 /* What the table has under the contents; if nothing, a new zeroed entry. */
@@ -26,12 +29,26 @@ static struct placed *find_placed(struct builder *b, struct table *table, const 
     return placed;
 }
 
+/* The materials of a use in the level that is open for it. */
+static const uint32_t *fill_materials(struct builder *b, struct placed *placed) {
+    const uint32_t slots = b->scene->geometries[placed->geometry].slots;
+    uint32_t at = 0;
+    while (at < slots && placed->materials[at] != MATERIAL_INHERITED) at++;
+    if (at == slots) return placed->materials;
+    const uint32_t own = material_index(b, b->level->material);
+    if (own == MATERIAL_INHERITED) return placed->materials;
+    if (placed->filled && placed->filled[at] == own) return placed->filled;
+    uint32_t *filled = arena_room(b->arena, slots * sizeof *filled);
+    memcpy(filled, placed->materials, slots * sizeof *filled);
+    filled[at] = own;
+    return placed->filled = filled;
+}
+
 /* The use as an instance, at the place of the level that is open for it. */
-static void add_instance(struct builder *b, const struct object_value *use, const struct placed *placed) {
-    const uint32_t material =
-        placed->material == MATERIAL_INHERITED ? material_index(b, b->level->material) : placed->material;
+static void add_instance(struct builder *b, const struct object_value *use, struct placed *placed) {
+    const uint32_t *materials = fill_materials(b, placed);
     place_origin(b, use);
-    instance_add(b, use->span, b->level->world_from_node, placed->geometry, material);
+    instance_add(b, use->span, b->level->world_from_node, placed->geometry, materials);
 }
 
 static void count_use(struct builder *b) {
@@ -105,30 +122,61 @@ static uint32_t add_geometry(struct builder *b, const struct primitives *p, uint
     return scene->geometry_count++;
 }
 
-static uint32_t *material_of(struct primitives *p, uint32_t number) {
-    const primitive_ref ref = p->info[number].ref;
-    return primitive_ref_kind(ref) == PRIMITIVE_INSTANCE ? &p->instances[primitive_ref_index(ref)].material
-                                                         : &p->info[number].material;
+/* The materials that slots stand for, by slot. */
+struct slots {
+    uint32_t material[MATERIAL_SLOTS], count;
+};
+
+/* The slot that stands for the material, a new one if it is new; the material itself where there is none left.
+ * The last is kept for what is inherited, which must have one. */
+static uint32_t slot_for(struct slots *slots, uint32_t material) {
+    for (uint32_t i = 0; i < slots->count; i++)
+        if (slots->material[i] == material) return MATERIAL_SLOT | i;
+    if (slots->count >= MATERIAL_SLOTS - 1 && material != MATERIAL_INHERITED) return material;
+    slots->material[slots->count] = material;
+    return MATERIAL_SLOT | slots->count++;
 }
 
-/* The only material of the set, which now inherits it; MATERIAL_INHERITED: there is none, or several. */
-static uint32_t take_material(struct primitives *p) {
-    const uint32_t first = *material_of(p, 0);
-    for (uint32_t i = 1; i < p->count; i++)
-        if (*material_of(p, i) != first) return MATERIAL_INHERITED;
-    for (uint32_t i = 0; i < p->count; i++) *material_of(p, i) = MATERIAL_INHERITED;
-    return first;
+static const uint32_t *slots_for(struct builder *b, struct slots *slots, const uint32_t *materials,
+                                 uint32_t count) {
+    uint32_t *list = arena_room(b->arena, count * sizeof *list);
+    for (uint32_t i = 0; i < count; i++) list[i] = slot_for(slots, materials[i]);
+    return list;
 }
 
-/* The geometry with the contents of the set: one that is there, or a new one, which takes its arrays. */
-static uint32_t find_geometry(struct builder *b, struct set *set, uint32_t height, uint32_t weight) {
+/* Puts slots in the place of the set's materials, in the order in which they appear; returns those. */
+static const uint32_t *take_materials(struct builder *b, struct primitives *p) {
+    struct slots slots = {.count = 0};
+    const uint32_t *before = NULL, *after = NULL; /* of the last instance: many have the same */
+    for (uint32_t i = 0; i < p->count; i++) {
+        if (primitive_ref_kind(p->info[i].ref) != PRIMITIVE_INSTANCE) {
+            p->info[i].material = slot_for(&slots, p->info[i].material);
+            continue;
+        }
+        struct instance *instance = &p->instances[primitive_ref_index(p->info[i].ref)];
+        if (instance->materials != before) {
+            before = instance->materials;
+            after = slots_for(b, &slots, before, b->scene->geometries[instance->geometry].slots);
+        }
+        instance->materials = after;
+    }
+    p->slots = slots.count;
+    uint32_t *materials = arena_room(b->arena, slots.count * sizeof *materials);
+    return memcpy(materials, slots.material, slots.count * sizeof *materials);
+}
+
+/* The geometry with the contents of the set: one that is there, or a new one, which takes its arrays. Of another
+ * template it is another one, which can be told by its origins. */
+static uint32_t find_geometry(struct builder *b, struct set *set, uint32_t template, uint32_t height,
+                              uint32_t weight) {
     struct hash contents;
     hash_begin(&contents);
-    primitives_hash(&set->primitives, &contents);
+    hash_integer(&contents, template);
+    primitives_hash(&set->primitives, b->scene->geometries, &contents);
     struct placed *known = find_placed(b, &b->geometries, &contents);
     if (known->state == PLACED_GATHERED) return known->geometry;
-    *known = (struct placed){PLACED_GATHERED, add_geometry(b, &set->primitives, height, weight),
-                             MATERIAL_INHERITED};
+    *known = (struct placed){.state = PLACED_GATHERED,
+                             .geometry = add_geometry(b, &set->primitives, height, weight)};
     *set = (struct set){.outer = set->outer}; /* it is among the free ones: without arrays now */
     return known->geometry;
 }
@@ -142,6 +190,7 @@ bool instances_close(struct builder *b) {
     }
     struct set *set = b->set;
     const struct object_value *use = b->level->use;
+    const uint32_t template = b->level->template;
     uint32_t height, weight;
     measure(b, &set->primitives, &height, &weight);
     close_set(b);
@@ -150,8 +199,8 @@ bool instances_close(struct builder *b) {
         placed->state = PLACED_CARRIED_OUT;
         return true; /* the level of the use is open: read the objects into the set around */
     }
-    *placed = (struct placed){.state = PLACED_GATHERED, .material = take_material(&set->primitives)};
-    placed->geometry = find_geometry(b, set, height, weight);
+    *placed = (struct placed){.state = PLACED_GATHERED, .materials = take_materials(b, &set->primitives)};
+    placed->geometry = find_geometry(b, set, template, height, weight);
     add_instance(b, use, placed);
     level_close(b);
     return false;

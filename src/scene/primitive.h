@@ -54,9 +54,8 @@ struct quadric {
  * is here the space of the set that the instance is in: the scene's, or that of another geometry. */
 struct instance {
     affine object_from_world, world_from_object; /* object space: that of the geometry */
+    const uint32_t *materials;                   /* for each slot of the geometry; may be shared */
     uint32_t geometry;                           /* index into the scene's geometries */
-    uint32_t
-        material; /* of its primitives that have MATERIAL_INHERITED; may be that too, within a geometry */
 };
 
 /* Instances around a primitive, at most: whoever makes geometries flattens or refuses what is deeper. */
@@ -79,13 +78,20 @@ static inline uint32_t primitive_ref_index(primitive_ref ref) { return ref & (PR
 /* What the renderer asks of a primitive besides its shape. */
 struct primitive_info {
     primitive_ref ref;
-    uint32_t material; /* index into the scene's materials; of a geometry's also MATERIAL_INHERITED;
-                          of an instance not used: it has its own */
-    uint32_t origin;   /* index into the scene's origins: the object that it came from */
+    uint32_t
+        material; /* index into the scene's materials, or a slot; of an instance not used: it has its own */
+    uint32_t origin; /* index into the scene's origins: the object that it came from */
 };
 
-/* The material of the innermost instance around that has one. */
-#define MATERIAL_INHERITED UINT32_MAX
+/* A material is an index into those of the scene; or, within a geometry, MATERIAL_SLOT with the number of a slot,
+ * for which each instance has a material of its own: so a geometry is one in whatever colours it stands.
+ *
+ *     scene       instance of 1 {red, gold}              instance of 1 {blue, gold}
+ *     geometry 1  sphere: slot 0, sphere: slot 1, instance of 0 {slot 1}
+ *     geometry 0  box: slot 0                            gold, in both
+ */
+#define MATERIAL_SLOT (1u << 31)
+enum { MATERIAL_SLOTS = 64 }; /* of a geometry, at most */
 
 /* `number` below is the index into `info`; sphere_number[i] is the number of spheres[i], and so on. */
 struct primitives {
@@ -100,7 +106,13 @@ struct primitives {
     struct instance *instances;
     uint32_t *instance_number, instance_count;
     uint32_t *uses, use_count; /* the templates that were used here, each time: indices into the scene's */
+    uint32_t slots;            /* of a geometry: its primitives have each of them; of the scene's set 0 */
 };
+
+/* What a material within the instance's geometry is in the set that the instance is in. */
+static inline uint32_t material_around(const struct instance *instance, uint32_t material) {
+    return material & MATERIAL_SLOT ? instance->materials[material & ~MATERIAL_SLOT] : material;
+}
 
 /* The number of the primitive that `ref` names. */
 static inline uint32_t primitives_number(const struct primitives *p, primitive_ref ref) {
@@ -112,6 +124,17 @@ static inline uint32_t primitives_number(const struct primitives *p, primitive_r
     case PRIMITIVE_INSTANCE: break;
     }
     return p->instance_number[index];
+}
+
+/* The materials of one of the set's primitives, by its number: that of a shape, or those of an instance. */
+static inline const uint32_t *primitives_materials(const struct primitives *p,
+                                                   const struct primitives *geometries, uint32_t number,
+                                                   uint32_t *count) {
+    *count = 1;
+    if (primitive_ref_kind(p->info[number].ref) != PRIMITIVE_INSTANCE) return &p->info[number].material;
+    const struct instance *instance = &p->instances[primitive_ref_index(p->info[number].ref)];
+    *count = geometries[instance->geometry].slots;
+    return instance->materials;
 }
 
 #endif

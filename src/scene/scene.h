@@ -88,7 +88,7 @@ bool scene_view(struct arena *arena, struct diagnostics *diag, const struct obje
 bool scene_same_shapes(const struct scene *a, const struct scene *b);
 
 /* Adds the shapes of a set to the hash, and their materials by number. */
-void primitives_hash(const struct primitives *p, struct hash *hash);
+void primitives_hash(const struct primitives *p, const struct primitives *geometries, struct hash *hash);
 
 /* Adds what a material is to the hash. */
 void material_hash(const struct material *material, struct hash *hash);

@@ -184,22 +184,13 @@ static bool looks_black(const struct scene *scene, const struct material *m) {
     return !lit && is_black(m->reflection) && is_black(m->refraction);
 }
 
-/* Whether everything is black that `p` makes with its own materials. *inherits becomes true where
- * something in it takes that of the instance around; inherits_in tells that of the geometries. */
-static bool all_black(const struct scene *scene, const struct primitives *p, const bool *inherits_in,
-                      bool *inherits) {
+/* Whether everything is black that `p` makes with the materials that it has itself. */
+static bool all_black(const struct scene *scene, const struct primitives *p, const bool *black) {
     for (uint32_t i = 0; i < p->count; i++) {
-        const primitive_ref ref = p->info[i].ref;
-        uint32_t material = p->info[i].material;
-        if (primitive_ref_kind(ref) == PRIMITIVE_INSTANCE) {
-            const struct instance *instance = &p->instances[primitive_ref_index(ref)];
-            if (!inherits_in[instance->geometry]) continue;
-            material = instance->material;
-        }
-        if (material == MATERIAL_INHERITED)
-            *inherits = true;
-        else if (!looks_black(scene, &scene->materials[material]))
-            return false;
+        uint32_t count;
+        const uint32_t *materials = primitives_materials(p, scene->geometries, i, &count);
+        for (uint32_t k = 0; k < count; k++)
+            if (!(materials[k] & MATERIAL_SLOT) && !black[materials[k]]) return false;
     }
     return true;
 }
@@ -209,10 +200,11 @@ void lights_check(struct builder *b, const struct object_value *file) {
     if (scene->default_lights || scene->settings.shading == MONGE_SHADING_SIGNATURE) return;
     bool ambient_alone = scene->light_count > 0;
     for (uint32_t i = 0; i < scene->light_count; i++) ambient_alone &= scene->lights[i].kind == LIGHT_AMBIENT;
-    bool *inherits = arena_array(b->arena, scene->geometry_count, sizeof *inherits), top = false;
+    bool *black = arena_array(b->arena, scene->material_count, sizeof *black);
+    for (uint32_t i = 0; i < scene->material_count; i++) black[i] = looks_black(scene, &scene->materials[i]);
     for (uint32_t i = 0; i < scene->geometry_count; i++)
-        if (!all_black(scene, &scene->geometries[i], inherits, &inherits[i])) return;
-    if (!all_black(scene, &scene->primitives, inherits, &top)) return;
+        if (!all_black(scene, &scene->geometries[i], black)) return;
+    if (!all_black(scene, &scene->primitives, black)) return;
     struct diagnostic *d = diag_warning(
         b->diag, object_span(file, KEY_FILE_LIGHTS), "no-light",
         scene->light_count == 0 ? "no light: everything will be black"

@@ -117,8 +117,8 @@ static void add_quadric(struct builder *b, const struct placement *at, affine ob
 }
 
 void instance_add(struct builder *b, struct span span, affine world_from_object, uint32_t geometry,
-                  uint32_t material) {
-    const struct placement at = {span, world_from_object, material};
+                  const uint32_t *materials) {
+    const struct placement at = {.span = span, .world_from_object = world_from_object};
     struct primitives *p = &b->set->primitives;
     affine inverse;
     if (!affine_invert(world_from_object, &inverse)) {
@@ -130,7 +130,7 @@ void instance_add(struct builder *b, struct span span, affine world_from_object,
                    sizeof *p->instances))
         return;
     p->instances = array;
-    p->instances[p->instance_count] = (struct instance){inverse, world_from_object, geometry, material};
+    p->instances[p->instance_count] = (struct instance){inverse, world_from_object, materials, geometry};
     add_info(b, &at, PRIMITIVE_INSTANCE, p->instance_count++);
 }
 

@@ -188,8 +188,8 @@ static bool check_nearest(const struct scene *s, enum among among, ray r, double
     const struct hit untouched = hit_of(77, (struct crossing){-5.0, SHAPE_CUT_MAX_Z});
     struct hit want = untouched, found = untouched;
     const bool hit = oracle_nearest(s, among, r, t_min, t_max, &want);
-    const bool answer = among == CLEAR ? accel_nearest_clear(s->accel, r, t_min, t_max, &found)
-                                       : accel_nearest(s->accel, r, t_min, t_max, &found);
+    const bool answer = among == CLEAR ? accel_nearest_clear(s->accel, NULL, r, t_min, t_max, &found)
+                                       : accel_nearest(s->accel, NULL, r, t_min, t_max, &found);
     if (answer != hit || found.which.number[0] != want.which.number[0] ||
         found.crossing.t != want.crossing.t || found.crossing.part != want.crossing.part)
         fail_msg("ray %a %a %a, %a %a %a in %a .. %a: found %u at %a, not %u at %a", r.org.x, r.org.y,
@@ -202,7 +202,7 @@ static bool check_nearest(const struct scene *s, enum among among, ray r, double
 static bool check_ray(const struct scene *s, ray r, double t_min, double t_max) {
     const bool hit = check_nearest(s, ALL, r, t_min, t_max);
     if (s->clear) check_nearest(s, CLEAR, r, t_min, t_max);
-    if (accel_any(s->accel, r, t_min, t_max) != oracle_any(s, r, t_min, t_max))
+    if (accel_any(s->accel, NULL, r, t_min, t_max) != oracle_any(s, r, t_min, t_max))
         fail_msg("any hit: ray %a %a %a, %a %a %a in %a .. %a", r.org.x, r.org.y, r.org.z, r.dir.x, r.dir.y,
                  r.dir.z, t_min, t_max);
     return hit;
@@ -214,7 +214,7 @@ static void check_random_rays(const struct scene *s, double size, bool grid, int
         const ray r = random_ray(size, grid);
         hits += check_ray(s, r, 0.0, INFINITY);
         struct hit hit;
-        if (!accel_nearest(s->accel, r, -1.0, INFINITY, &hit)) continue;
+        if (!accel_nearest(s->accel, NULL, r, -1.0, INFINITY, &hit)) continue;
         const double t = hit.crossing.t;
         check_ray(s, r, t, INFINITY);
         check_ray(s, r, -INFINITY, t);
@@ -363,7 +363,7 @@ static void one_sphere(void **state) {
     add_sphere(&s.p, (vec3){0, 0, 5}, 1.0);
     scene_build(&s);
     struct hit hit;
-    assert_true(accel_nearest(s.accel, (ray){{0, 0, 0}, {0, 0, 2}}, 0.0, INFINITY, &hit));
+    assert_true(accel_nearest(s.accel, NULL, (ray){{0, 0, 0}, {0, 0, 2}}, 0.0, INFINITY, &hit));
     assert_int_equal(hit.which.number[0], 0);
     assert_true(fabs(hit.crossing.t - 2.0) < 1e-15);
     const box3 bounds = accel_bounds(s.accel), want = shape_bounds(&s.p, s.p.info[0].ref);
@@ -411,8 +411,8 @@ static void limits(void **state) {
     scene_build(&s);
     const ray r = {{0, 0, -3}, {0, 0, 1}};
     struct hit hit;
-    assert_int_equal(accel_nearest(s.accel, r, row->t_min, row->t_max, &hit), row->nearest);
-    assert_int_equal(accel_any(s.accel, r, row->t_min, row->t_max), row->any);
+    assert_int_equal(accel_nearest(s.accel, NULL, r, row->t_min, row->t_max, &hit), row->nearest);
+    assert_int_equal(accel_any(s.accel, NULL, r, row->t_min, row->t_max), row->any);
     scene_end(&s);
 }
 

@@ -15,6 +15,11 @@
 enum { ROOM = 6000, GEOMETRIES = 40 };
 enum { CLAY, GLASS, MIRROR, WATER, MATERIALS };
 
+/* Slots of every geometry. */
+#define FIRST  (MATERIAL_SLOT | 0)
+#define SECOND (MATERIAL_SLOT | 1)
+enum { SLOTS = 2 };
+
 static const bool clear[MATERIALS] = {[GLASS] = true, [WATER] = true};
 
 static struct material materials[MATERIALS] = {
@@ -72,11 +77,26 @@ static void add_quadric(struct primitives *p, const struct quadric_form *form, a
     add_info(p, PRIMITIVE_QUADRIC, p->quadric_count++, p->quadric_number, material);
 }
 
-static void add_instance(struct primitives *p, uint32_t geometry, affine map, uint32_t material) {
-    struct instance instance = {.world_from_object = map, .geometry = geometry, .material = material};
+static const uint32_t *material_pair(uint32_t first, uint32_t second) {
+    static uint32_t pairs[ROOM][SLOTS];
+    static size_t next;
+    uint32_t *pair = pairs[next++ % ROOM];
+    pair[0] = first;
+    pair[1] = second;
+    return pair;
+}
+
+static void add_instance_of_two(struct primitives *p, uint32_t geometry, affine map, uint32_t first,
+                                uint32_t second) {
+    struct instance instance = {
+        .world_from_object = map, .geometry = geometry, .materials = material_pair(first, second)};
     assert_true(affine_invert(map, &instance.object_from_world));
     p->instances[p->instance_count] = instance;
     add_info(p, PRIMITIVE_INSTANCE, p->instance_count++, p->instance_number, 0);
+}
+
+static void add_instance(struct primitives *p, uint32_t geometry, affine map, uint32_t material) {
+    add_instance_of_two(p, geometry, map, material, material);
 }
 
 /* A scene twice. */
@@ -141,29 +161,50 @@ static void carry_out_shape(struct primitives *to, const struct primitives *from
 }
 
 /* Numbers rise as occurrences do. */
-static void carry_out(struct pair *s, const struct primitives *from, affine map, uint32_t inherited,
+static void carry_out(struct pair *s, const struct primitives *from, affine map, const uint32_t *around,
                       struct occurrence which) {
+    const struct instance outer = {.materials = around};
     for (uint32_t i = 0; i < from->count; i++) {
         const struct primitive_info *info = &from->info[i];
         which.number[which.depth] = i;
         if (primitive_ref_kind(info->ref) == PRIMITIVE_INSTANCE) {
             const struct instance *instance = &from->instances[primitive_ref_index(info->ref)];
             struct occurrence inner = which;
+            const uint32_t within[SLOTS] = {material_around(&outer, instance->materials[0]),
+                                            material_around(&outer, instance->materials[1])};
             inner.depth++;
             carry_out(s, &s->geometries[instance->geometry], affine_compose(map, instance->world_from_object),
-                      instance->material == MATERIAL_INHERITED ? inherited : instance->material, inner);
+                      within, inner);
         } else {
             assert_true(s->flat.primitives.count < ROOM);
             s->which[s->flat.primitives.count] = which;
             carry_out_shape(&s->flat.primitives, from, info->ref, &map,
-                            info->material == MATERIAL_INHERITED ? inherited : info->material);
+                            material_around(&outer, info->material));
+        }
+    }
+}
+
+static void use_slots(struct primitives *p, const uint32_t *has, uint32_t count) {
+    for (uint32_t i = 0; i < count; i++)
+        if (has[i] & MATERIAL_SLOT && p->slots <= (has[i] & ~MATERIAL_SLOT))
+            p->slots = (has[i] & ~MATERIAL_SLOT) + 1;
+}
+
+static void count_slots(struct pair *s) {
+    for (uint32_t g = 0; g < s->instanced.geometry_count; g++) {
+        struct primitives *p = &s->geometries[g];
+        for (uint32_t i = 0; i < p->count; i++) {
+            uint32_t count;
+            const uint32_t *has = primitives_materials(p, s->geometries, i, &count);
+            use_slots(p, has, count);
         }
     }
 }
 
 static void pair_build(struct pair *s) {
     const struct occurrence top = {0};
-    carry_out(s, &s->instanced.primitives, AFFINE_IDENTITY, MATERIAL_INHERITED, top);
+    count_slots(s);
+    carry_out(s, &s->instanced.primitives, AFFINE_IDENTITY, NULL, top);
     s->accel =
         accel_build(&s->arena, &s->instanced.primitives, s->geometries, s->instanced.geometry_count, clear);
     s->flat_accel = accel_build(&s->arena, &s->flat.primitives, NULL, 0, clear);
@@ -183,7 +224,8 @@ static affine random_map(struct random *r, double size) {
 }
 
 static uint32_t random_material(struct random *r, bool inherit) {
-    return inherit && random_below(r, 2) ? MATERIAL_INHERITED : random_below(r, MATERIALS);
+    return inherit && random_below(r, 2) ? MATERIAL_SLOT | random_below(r, SLOTS)
+                                         : random_below(r, MATERIALS);
 }
 
 static void add_shapes(struct random *r, struct primitives *p, unsigned count, double size, bool inherit) {
@@ -207,21 +249,23 @@ static struct pair *random_pair(struct random *r, double size) {
     add_geometry(s, 1);
     struct primitives *middle = add_geometry(s, 50);
     for (int i = 0; i < 4; i++)
-        add_instance(middle, random_below(r, 2), random_map(r, 4), random_material(r, true));
+        add_instance_of_two(middle, random_below(r, 2), random_map(r, 4), random_material(r, true),
+                            random_material(r, true));
     add_shapes(r, middle, 2, 4, true);
     struct primitives *outer = add_geometry(s, 50);
     for (int i = 0; i < 3; i++)
-        add_instance(outer, 2 * random_below(r, 2), random_map(r, 8), random_material(r, true));
+        add_instance_of_two(outer, 2 * random_below(r, 2), random_map(r, 8), random_material(r, true),
+                            random_material(r, true));
     add_shapes(r, outer, 2, 8, true);
     struct primitives *plane = add_geometry(s, 50);
-    add_flat(plane, FLAT_PLANE, random_map(r, 1), MATERIAL_INHERITED);
+    add_flat(plane, FLAT_PLANE, random_map(r, 1), FIRST);
     add_shapes(r, plane, 2, 2, true);
     static const uint32_t placed[] = {0, 2, 3, 3, 0, 4};
     struct primitives *top = &s->instanced.primitives;
     for (uint32_t i = 0; i < COUNT(placed); i++)
-        add_instance(top, placed[i],
-                     affine_compose(affine_scale(vec3_all(size)), random_map(r, i < 5 ? 12 : 60)),
-                     random_material(r, false));
+        add_instance_of_two(top, placed[i],
+                            affine_compose(affine_scale(vec3_all(size)), random_map(r, i < 5 ? 12 : 60)),
+                            random_material(r, false), random_material(r, false));
     add_sphere(top, vec3_scale(random_vec3(r, -12, 12), size), 2 * size, CLAY);
     pair_build(s);
     return s;
@@ -270,7 +314,7 @@ static bool check_oracle(const struct pair *s, ray r, double t_min, struct hit *
     struct oracle o = {.s = s};
     const struct occurrence top = {0};
     oracle_search(&o, &s->instanced.primitives, r, t_min, top);
-    const bool found = accel_nearest(s->accel, r, t_min, INFINITY, hit);
+    const bool found = accel_nearest(s->accel, NULL, r, t_min, INFINITY, hit);
     assert_int_equal(found, o.found);
     if (!found) return false;
     if (hit->crossing.t != o.t || !occurrence_equal(&hit->which, &o.which))
@@ -307,7 +351,7 @@ static void ties(void **state) {
     struct primitives *one = add_geometry(s, 9), *two = add_geometry(s, 20), *top = &s->instanced.primitives;
     const affine map = random_map(&r, 1);
     add_shapes(&r, one, 3, 1, true);
-    for (int i = 0; i < 11; i++) add_instance(two, 0, map, i == 0 ? GLASS : MATERIAL_INHERITED);
+    for (int i = 0; i < 11; i++) add_instance(two, 0, map, i == 0 ? GLASS : FIRST);
     add_sphere(two, random_vec3(&r, -1, 1), 0.2, GLASS);
     for (int i = 0; i < 11; i++) add_instance(top, 1, AFFINE_IDENTITY, i == 0 ? WATER : CLAY);
     pair_build(s);
@@ -351,22 +395,22 @@ static void the_same_as_flattened(void **state) {
             const ray one = random_ray(&r, s, size);
             struct hit hit, want;
             double t_min = 0.0;
-            while (accel_nearest(s->flat_accel, one, t_min, INFINITY, &want)) {
-                assert_true(accel_nearest(s->accel, one, t_min, INFINITY, &hit));
+            while (accel_nearest(s->flat_accel, NULL, one, t_min, INFINITY, &want)) {
+                assert_true(accel_nearest(s->accel, NULL, one, t_min, INFINITY, &hit));
                 check_hit(s, one, &hit, &want, size);
                 t_min = want.crossing.t + 1e-9 * (100 + want.crossing.t);
                 hits++;
             }
             t_min = 0.0;
-            while (accel_nearest_clear(s->flat_accel, one, t_min, 1.0, &want)) {
-                assert_true(accel_nearest_clear(s->accel, one, t_min, 1.0, &hit));
+            while (accel_nearest_clear(s->flat_accel, NULL, one, t_min, 1.0, &want)) {
+                assert_true(accel_nearest_clear(s->accel, NULL, one, t_min, 1.0, &hit));
                 check_hit(s, one, &hit, &want, size);
                 assert_true(clear[hit.material]);
                 t_min = want.crossing.t + 1e-9 * (100 + want.crossing.t);
                 clears++;
             }
-            const bool any = accel_any(s->flat_accel, one, 0.0, 1.0);
-            assert_int_equal(accel_any(s->accel, one, 0.0, 1.0), any);
+            const bool any = accel_any(s->flat_accel, NULL, one, 0.0, 1.0);
+            assert_int_equal(accel_any(s->accel, NULL, one, 0.0, 1.0), any);
             blocked += any;
         }
         pair_end(s);
@@ -401,7 +445,7 @@ static void errors_hold(void **state) {
             const ray one = {from,
                              vec3_sub(vec3_madd(box3_center(box), size, random_vec3(&r, -0.3, 0.3)), from)};
             struct hit hit, again;
-            if (!accel_nearest(s->accel, one, 0.0, INFINITY, &hit)) continue;
+            if (!accel_nearest(s->accel, NULL, one, 0.0, INFINITY, &hit)) continue;
             const struct surface surface = accel_surface(s->accel, one, &hit);
             vec3 out = surface.normal;
             if (vec3_dot(one.dir, out) > 0.0) {
@@ -414,7 +458,7 @@ static void errors_hold(void **state) {
             if (!(vec3_dot(dir, out) > 0.0)) continue;
             const ray leaving = {vec3_madd(surface.point, surface.error, out), dir};
             tried++;
-            if (accel_nearest(s->accel, leaving, 0.0, INFINITY, &again) &&
+            if (accel_nearest(s->accel, NULL, leaving, 0.0, INFINITY, &again) &&
                 occurrence_equal(&again.which, &hit.which))
                 fail_msg("round %d: a ray at %g off the surface hits it again after %g", round, surface.error,
                          again.crossing.t);
@@ -450,7 +494,7 @@ static struct monge_film *render(const struct scene *scene, const struct accel *
     struct monge_film *film = film_new(
         &scene->settings, (struct monge_region){0, 0, scene->settings.width, scene->settings.height});
     assert_non_null(film);
-    assert_true(render_film(scene, accel, &job, film, &stats));
+    assert_true(render_film(scene, accel, &job, film, &stats, NULL));
     return film;
 }
 
@@ -491,12 +535,11 @@ static void the_same_pictures(void **state) {
 /* Balls of glass and water that overlap, in each other, and the camera in both; by instances of one ball. */
 static struct pair *glass_pair(bool orthographic) {
     struct pair *s = pair_begin();
-    add_sphere(add_geometry(s, 9), (vec3){0, 0, 0}, 1, MATERIAL_INHERITED);
+    add_sphere(add_geometry(s, 9), (vec3){0, 0, 0}, 1, FIRST);
     struct primitives *two = add_geometry(s, 9), *top = &s->instanced.primitives;
     add_instance(two, 0, affine_scale(vec3_all(3)), WATER);
-    add_instance(two, 0,
-                 affine_compose(affine_translate((vec3){0.3, 0, 0}), affine_scale((vec3){1, 1.4, -1})),
-                 MATERIAL_INHERITED);
+    add_instance(
+        two, 0, affine_compose(affine_translate((vec3){0.3, 0, 0}), affine_scale((vec3){1, 1.4, -1})), FIRST);
     add_instance(two, 0,
                  affine_compose(affine_translate((vec3){0.9, 0.2, -0.4}), affine_scale((vec3){1, 0.6, 1})),
                  WATER);
@@ -528,8 +571,8 @@ static void a_camera_in_glass(void **state) {
         struct pair *s = glass_pair(orthographic);
         struct media_origin in, flat_in;
         const ray r = {s->instanced.camera.eye, s->instanced.camera.direction};
-        media_at(&s->instanced, s->accel, r, &in);
-        media_at(&s->flat, s->flat_accel, r, &flat_in);
+        media_at(&s->instanced, s->accel, NULL, r, &in);
+        media_at(&s->flat, s->flat_accel, NULL, r, &flat_in);
         assert_int_equal(in.media.count, 3); /* the large ball, of water, and both small ones */
         assert_int_equal(flat_in.media.count, 3);
         for (int i = 0; i < in.media.count; i++) {
@@ -546,12 +589,12 @@ static void a_camera_in_glass(void **state) {
 static void too_many_media(void **state) {
     (void)state;
     struct pair *s = pair_begin();
-    add_sphere(add_geometry(s, 9), (vec3){0, 0, 0}, 1, MATERIAL_INHERITED);
+    add_sphere(add_geometry(s, 9), (vec3){0, 0, 0}, 1, FIRST);
     for (int i = 0; i < 40; i++)
         add_instance(&s->instanced.primitives, 0, affine_scale(vec3_all(1 + (i * 7) % 40)), GLASS);
     pair_build(s);
     struct media_origin in;
-    media_at(&s->instanced, s->accel, (ray){{0, 0, 0.5}, {0, 1, 1}}, &in);
+    media_at(&s->instanced, s->accel, NULL, (ray){{0, 0, 0.5}, {0, 1, 1}}, &in);
     assert_int_equal(in.media.count, MEDIA_MAX);
     for (uint32_t i = 0; i < MEDIA_MAX; i++) {
         assert_int_equal(in.media.inside[i].which->depth, 1);
@@ -583,14 +626,14 @@ static void ten_million_balls(void **state) {
     struct random r = random_begin();
     struct pair *s = pair_begin();
     struct arena arena = {0};
-    add_sphere(add_geometry(s, 1), (vec3){0, 0, 0}, 0.4, MATERIAL_INHERITED);
+    add_sphere(add_geometry(s, 1), (vec3){0, 0, 0}, 0.4, FIRST);
     double apart = 1.0;
     for (uint32_t level = 0; level < 7; level++, apart *= 10.0) {
         struct primitives *p = level < 6 ? add_geometry(s, 10) : &s->instanced.primitives;
         for (int i = 0; i < 10; i++)
-            add_instance(p, level, affine_translate((vec3){i * apart, 0, 0}),
-                         level < 6 ? MATERIAL_INHERITED : GLASS);
+            add_instance(p, level, affine_translate((vec3){i * apart, 0, 0}), level < 6 ? FIRST : GLASS);
     }
+    count_slots(s);
     s->accel =
         accel_build(&arena, &s->instanced.primitives, s->geometries, s->instanced.geometry_count, clear);
     printf("# %zu bytes\n", arena.total);
@@ -599,7 +642,7 @@ static void ten_million_balls(void **state) {
         const uint32_t n = random_below(&r, 10000000);
         const double dx = random_below(&r, 200) * 0x1p-10, dz = random_below(&r, 200) * 0x1p-10;
         struct hit hit;
-        assert_true(accel_nearest(s->accel, (ray){{n + dx, 5, dz}, {0, -2, 0}}, 0.0, INFINITY, &hit));
+        assert_true(accel_nearest(s->accel, NULL, (ray){{n + dx, 5, dz}, {0, -2, 0}}, 0.0, INFINITY, &hit));
         assert_near(hit.crossing.t, 0.5 * (5.0 - sqrt(0.16 - dx * dx - dz * dz)), 1e-12, "t");
         assert_int_equal(hit.which.depth, 7);
         assert_int_equal(hit.material, GLASS);
@@ -607,8 +650,8 @@ static void ten_million_balls(void **state) {
         for (int k = 0; k < 7; k++) digits = 10 * digits + hit.which.number[k];
         assert_int_equal(digits, n);
         assert_int_equal(hit.which.number[7], 0);
-        assert_false(accel_any(s->accel, (ray){{n + dx, 5, dz}, {0, -2, 0}}, 0.0, INFINITY));
-        assert_false(accel_nearest(s->accel, (ray){{n + 0.5, 5, dz}, {0, -2, 0}}, 0.0, INFINITY, &hit));
+        assert_false(accel_any(s->accel, NULL, (ray){{n + dx, 5, dz}, {0, -2, 0}}, 0.0, INFINITY));
+        assert_false(accel_nearest(s->accel, NULL, (ray){{n + 0.5, 5, dz}, {0, -2, 0}}, 0.0, INFINITY, &hit));
     }
     assert_near(accel_support(s->accel, (vec3){1, 0, 0}), 9999999.4, 20, "to the end");
     assert_near(accel_support(s->accel, (vec3){-1, 0, 0}), 0.4, 20, "to the begin");
@@ -623,14 +666,14 @@ static void ten_million_balls(void **state) {
 static void the_deepest_nesting(void **state) {
     (void)state;
     struct pair *s = pair_begin();
-    add_sphere(add_geometry(s, 1), (vec3){0, 0, 0}, 1, MATERIAL_INHERITED);
+    add_sphere(add_geometry(s, 1), (vec3){0, 0, 0}, 1, FIRST);
     for (uint32_t level = 1; level < INSTANCE_MAX_DEPTH; level++)
         add_instance(add_geometry(s, 1), level - 1, affine_translate((vec3){1, 0, 0}),
-                     level == 5 ? GLASS : MATERIAL_INHERITED);
+                     level == 5 ? GLASS : FIRST);
     add_instance(&s->instanced.primitives, INSTANCE_MAX_DEPTH - 1, affine_scale(vec3_all(2)), CLAY);
     pair_build(s);
     struct hit hit;
-    assert_true(accel_nearest(s->accel, (ray){{62, 9, 0}, {0, -1, 0}}, 0.0, INFINITY, &hit));
+    assert_true(accel_nearest(s->accel, NULL, (ray){{62, 9, 0}, {0, -1, 0}}, 0.0, INFINITY, &hit));
     assert_near(hit.crossing.t, 7, 1e-12, "t");
     assert_int_equal(hit.which.depth, INSTANCE_MAX_DEPTH);
     assert_int_equal(hit.material, GLASS);
@@ -652,19 +695,24 @@ static void fingerprints(void **state) {
     (void)state;
     struct random r = random_begin();
     struct pair *s = random_pair(&r, 1.0);
+    for (int i = 0; i < 3; i++) s->geometries[i].slots = SLOTS; /* even where chance has used none */
     const struct hash before = hash_of(&s->instanced);
     struct instance *placed = s->instanced.primitives.instances, *inner = s->geometries[2].instances;
     const struct instance keep = *placed, keep_inner = *inner;
     placed->world_from_object.m[1][3] += 1e-9;
     assert_memory_not_equal(&before, &(struct hash[]){hash_of(&s->instanced)}, sizeof before);
     *placed = keep;
-    placed->material = (keep.material + 1) % MATERIALS;
+    placed->materials = material_pair((keep.materials[0] + 1) % MATERIALS, keep.materials[1]);
+    assert_memory_not_equal(&before, &(struct hash[]){hash_of(&s->instanced)}, sizeof before);
+    *placed = keep;
+    placed->materials = material_pair(keep.materials[0], (keep.materials[1] + 1) % MATERIALS);
     assert_memory_not_equal(&before, &(struct hash[]){hash_of(&s->instanced)}, sizeof before);
     *placed = keep;
     placed->geometry = 3;
     assert_memory_not_equal(&before, &(struct hash[]){hash_of(&s->instanced)}, sizeof before);
     *placed = keep;
-    inner->material = keep_inner.material == MATERIAL_INHERITED ? CLAY : MATERIAL_INHERITED;
+    inner->materials =
+        material_pair(keep_inner.materials[0] == FIRST ? SECOND : FIRST, keep_inner.materials[1]);
     assert_memory_not_equal(&before, &(struct hash[]){hash_of(&s->instanced)}, sizeof before);
     *inner = keep_inner;
     s->instanced.primitives.info[0].material = MIRROR; /* of an instance: not used */
@@ -683,12 +731,8 @@ static void dark_scenes(void **state) {
         uint32_t own, inner, outer;
         unsigned warnings;
     } rows[] = {
-        {MATERIAL_INHERITED, MATERIAL_INHERITED, BLACK, 1},
-        {MATERIAL_INHERITED, MATERIAL_INHERITED, WHITE, 0},
-        {MATERIAL_INHERITED, BLACK, WHITE, 1},
-        {MATERIAL_INHERITED, WHITE, BLACK, 0},
-        {BLACK, WHITE, WHITE, 1},
-        {WHITE, BLACK, BLACK, 0},
+        {FIRST, FIRST, BLACK, 1}, {FIRST, FIRST, WHITE, 0}, {FIRST, BLACK, WHITE, 1},
+        {FIRST, WHITE, BLACK, 0}, {BLACK, WHITE, WHITE, 1}, {WHITE, BLACK, BLACK, 0},
     };
     for (size_t i = 0; i < COUNT(rows); i++) {
         struct loaded l;
@@ -698,9 +742,11 @@ static void dark_scenes(void **state) {
         add_instance(add_geometry(s, 1), 0, AFFINE_IDENTITY, rows[i].inner);
         add_instance(&s->instanced.primitives, 1, AFFINE_IDENTITY, rows[i].outer);
         s->instanced.materials = two;
+        s->instanced.material_count = COUNT(two);
         s->instanced.default_lights = false;
         s->instanced.lights = l.scene.lights;
         s->instanced.light_count = l.scene.light_count;
+        count_slots(s);
         struct builder b = {.arena = &s->arena, .diag = &l.diag, .scene = &s->instanced};
         lights_check(&b, l.result.file);
         if (l.diag.warnings != rows[i].warnings) fail_msg("row %zu: %u warnings", i, l.diag.warnings);
