@@ -521,6 +521,7 @@ scene:
     with: {levels: levels, balls: balls}
 END
 exits 1 render nest.yaml "${small[@]}" -o nest.png; err_has 'nest.yaml:10:5: error[limit-instances]'; no_out; missing nest.png
+err_has 'instances at one place multiply with each level: move them apart, or place one alone'
 ok "it says no more than that" [ "$(grep -c -e error -e memory err)" -eq 1 ]
 exits 1 render nest.yaml -D levels=28,3 "${small[@]}" -o 'nest-{levels}.png'; err_has '1 rendered, 1 failed'
 missing nest-28.png; is_png nest-3.png; no_temporaries
