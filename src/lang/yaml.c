@@ -45,19 +45,24 @@ struct node *node_get(const struct node *mapping, const char *key) {
 
 bool node_is_null(const struct node *node) {
     const struct node *n = node_resolve(node);
-    return n->kind == NODE_SCALAR && !n->quoted &&
-           (n->count == 0 || strcmp(n->text, "~") == 0 || strcmp(n->text, "null") == 0 ||
-            strcmp(n->text, "Null") == 0 || strcmp(n->text, "NULL") == 0);
+    if (n->kind != NODE_SCALAR || n->quoted) return false;
+    switch (n->text[0]) {
+    case '\0': return true;
+    case '~': return n->count == 1;
+    case 'n': return strcmp(n->text, "null") == 0;
+    case 'N': return strcmp(n->text, "Null") == 0 || strcmp(n->text, "NULL") == 0;
+    default: return false;
+    }
 }
 
 /* ---- Events and marks ---- */
 
-static struct span span_of(const struct reader *rd, yaml_mark_t from, yaml_mark_t to) {
-    const size_t length = from.line == to.line && to.column > from.column ? to.column - from.column : 1;
-    return (struct span){rd->source, (uint32_t)from.line, (uint32_t)from.column, (uint32_t)length};
+static struct span span_of(const struct reader *rd, const yaml_mark_t *from, const yaml_mark_t *to) {
+    const size_t length = from->line == to->line && to->column > from->column ? to->column - from->column : 1;
+    return (struct span){rd->source, (uint32_t)from->line, (uint32_t)from->column, (uint32_t)length};
 }
 
-static struct span span_at(const struct reader *rd, yaml_mark_t at) { return span_of(rd, at, at); }
+static struct span span_at(const struct reader *rd, yaml_mark_t at) { return span_of(rd, &at, &at); }
 
 /* Where a reader error is, which libyaml gives as an offset in bytes alone. */
 static struct span span_of_offset(const struct reader *rd, size_t offset) {
@@ -89,26 +94,36 @@ static void keep_problem(struct reader *rd) {
 /* A text in quotes that ends where something unexpected follows may have begun far above. */
 static void keep_quoted(struct reader *rd) {
     const yaml_event_t *e = &rd->event;
-    if (e->type != YAML_SCALAR_EVENT) return;
     const yaml_scalar_style_t style = e->data.scalar.style;
     if (style != YAML_SINGLE_QUOTED_SCALAR_STYLE && style != YAML_DOUBLE_QUOTED_SCALAR_STYLE) return;
     rd->problem->quoted_at = span_at(rd, e->start_mark);
     rd->problem->quoted_end = span_at(rd, e->end_mark);
 }
 
-static bool next_event(struct reader *rd) {
-    keep_quoted(rd);
-    yaml_event_delete(&rd->event);
+/* Whether there is something to delete. */
+static bool event_owns(const yaml_event_t *e) {
+    switch (e->type) {
+    case YAML_SEQUENCE_END_EVENT:
+    case YAML_MAPPING_END_EVENT: return false;
+    case YAML_SEQUENCE_START_EVENT: return e->data.sequence_start.anchor || e->data.sequence_start.tag;
+    case YAML_MAPPING_START_EVENT: return e->data.mapping_start.anchor || e->data.mapping_start.tag;
+    default: return true;
+    }
+}
+
+static inline bool next_event(struct reader *rd) {
+    if (rd->event.type == YAML_SCALAR_EVENT) keep_quoted(rd);
+    if (event_owns(&rd->event)) yaml_event_delete(&rd->event);
     if (yaml_parser_parse(&rd->parser, &rd->event)) return true;
     keep_problem(rd);
     return false;
 }
 
 /* Counts one more node against the limit. */
-static bool count_node(struct reader *rd, struct span span) {
+static bool count_node(struct reader *rd, const struct node *node) {
     rd->values += 1.0;
     if (++rd->nodes <= rd->limits->nodes) return true;
-    diag_error(rd->diag, span, "limit-values", "more than %zu values in one file (the limit `values`)",
+    diag_error(rd->diag, node->span, "limit-values", "more than %zu values in one file (the limit `values`)",
                rd->limits->nodes);
     return false;
 }
@@ -340,10 +355,10 @@ static void begin_stream(const struct reader *rd, struct node *root, struct node
 }
 
 static struct node *read_stream_list(struct reader *rd) {
-    struct node *list = arena_alloc(rd->arena, sizeof *list);
-    list->span = span_of(rd, rd->event.start_mark, rd->event.end_mark);
-    list->kind = NODE_SEQUENCE;
-    return count_node(rd, list->span) && read_streamed(rd, list) ? list : NULL;
+    struct node *list = arena_room(rd->arena, sizeof *list);
+    *list = (struct node){.span = span_of(rd, &rd->event.start_mark, &rd->event.end_mark),
+                          .kind = NODE_SEQUENCE};
+    return count_node(rd, list) && read_streamed(rd, list) ? list : NULL;
 }
 
 /* Whether the node that the current event starts, the value of `key` in the root, is the list to stream. */
@@ -387,7 +402,7 @@ static bool read_collection(struct reader *rd, struct node *node, bool mapping) 
 
 static bool tag_allowed(struct reader *rd, const yaml_char_t *tag, const struct node *node) {
     const char *core = "tag:yaml.org,2002:";
-    if (!tag || strcmp((const char *)tag, "!") == 0 || strncmp((const char *)tag, core, strlen(core)) == 0)
+    if (strcmp((const char *)tag, "!") == 0 || strncmp((const char *)tag, core, strlen(core)) == 0)
         return true;
     struct diagnostic *d =
         diag_error(rd->diag, node->span, "tag", "a scene has no tags, found `%.40s`", (const char *)tag);
@@ -400,18 +415,20 @@ static bool tag_allowed(struct reader *rd, const yaml_char_t *tag, const struct 
 /* The text stands behind its node, in one piece of memory, see read_node. */
 static bool read_scalar(struct reader *rd, struct node *node) {
     const yaml_event_t *e = &rd->event;
-    const char *text = (const char *)e->data.scalar.value;
+    const char *value = (const char *)e->data.scalar.value;
     const size_t size = e->data.scalar.length;
-    if (memchr(text, '\0', size)) {
+    if (e->data.scalar.style == YAML_DOUBLE_QUOTED_SCALAR_STYLE && memchr(value, '\0', size)) {
         diag_help(rd->diag,
                   diag_error(rd->diag, node->span, "bad-character", "a text with the character NUL in it"),
                   "remove the `\\0`");
         return false;
     }
+    char *text = memcpy(node + 1, value, size);
+    text[size] = '\0';
     node->kind = NODE_SCALAR;
     node->quoted = e->data.scalar.style != YAML_PLAIN_SCALAR_STYLE;
     node->count = (uint32_t)size;
-    node->text = memcpy(node + 1, text, size);
+    node->text = text;
     rd->height = 0;
     return true;
 }
@@ -430,7 +447,7 @@ static bool read_content(struct reader *rd, struct node *node) {
     const bool scalar = rd->event.type == YAML_SCALAR_EVENT;
     if (!scalar) return read_collection(rd, node, rd->event.type == YAML_MAPPING_START_EVENT);
     if (!read_scalar(rd, node)) return false;
-    if (rd->event.data.scalar.anchor || rd->event.data.scalar.tag) narrow_span(node, &rd->event);
+    narrow_span(node, &rd->event);
     return true;
 }
 
@@ -446,25 +463,33 @@ static bool read_anchored(struct reader *rd, struct node *node, const yaml_char_
     return true;
 }
 
+/* A node with an anchor, a tag or both. */
+static bool read_marked(struct reader *rd, struct node *node, const yaml_char_t *anchor,
+                        const yaml_char_t *tag) {
+    if (tag && !tag_allowed(rd, tag, node)) return false;
+    return anchor ? read_anchored(rd, node, anchor) : read_content(rd, node);
+}
+
 /* The node that the current event starts; NULL when it was reported as wrong. */
 static struct node *read_node(struct reader *rd) {
     const yaml_event_t *e = &rd->event;
-    const size_t text = e->type == YAML_SCALAR_EVENT ? e->data.scalar.length + 1 : 0;
-    struct node *node = arena_alloc(rd->arena, sizeof *node + text);
-    node->span = span_of(rd, e->start_mark, e->end_mark);
-    node->passing = rd->passing;
-    if (!count_node(rd, node->span)) return NULL;
+    const bool scalar = e->type == YAML_SCALAR_EVENT, mapping = e->type == YAML_MAPPING_START_EVENT;
+    const size_t text = scalar ? e->data.scalar.length + 1 : 0;
+    struct node *node = arena_room(rd->arena, sizeof *node + text);
+    *node = (struct node){.span = span_of(rd, &e->start_mark, &e->end_mark), .passing = rd->passing};
+    if (!count_node(rd, node)) return NULL;
     if (e->type == YAML_ALIAS_EVENT) return read_alias(rd, node) ? node : NULL;
 
-    const bool scalar = e->type == YAML_SCALAR_EVENT, mapping = e->type == YAML_MAPPING_START_EVENT;
     const yaml_char_t *tag = scalar    ? e->data.scalar.tag
                              : mapping ? e->data.mapping_start.tag
                                        : e->data.sequence_start.tag;
-    if (!tag_allowed(rd, tag, node)) return NULL;
     const yaml_char_t *anchor = scalar    ? e->data.scalar.anchor
                                 : mapping ? e->data.mapping_start.anchor
                                           : e->data.sequence_start.anchor;
-    return (anchor ? read_anchored(rd, node, anchor) : read_content(rd, node)) ? node : NULL;
+    const bool ok = anchor || tag ? read_marked(rd, node, anchor, tag)
+                    : scalar      ? read_scalar(rd, node)
+                                  : read_collection(rd, node, mapping);
+    return ok ? node : NULL;
 }
 
 /* ---- Documents ---- */
