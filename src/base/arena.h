@@ -21,17 +21,16 @@ struct arena_block {
 struct arena {
     struct arena_block *head;
     struct arena_block *spare; /* NULL: none */
-    size_t total;         /* bytes taken from the system, those of its children too */
-    size_t limit;         /* 0: none */
-    jmp_buf *on_full;     /* may be NULL */
-    struct arena *parent; /* NULL: none; outlives the arena */
+    size_t total;              /* bytes taken from the system, those of its children too */
+    size_t limit;              /* 0: none */
+    jmp_buf *on_full;          /* may be NULL */
+    struct arena *parent;      /* NULL: none; outlives the arena */
 };
 
 /* An empty arena is a zeroed struct arena, with limit and on_full as wanted. */
-void *arena_alloc(struct arena *arena, size_t size); /* zeroed, aligned for any type */
+void *arena_alloc(struct arena *arena, size_t size);               /* zeroed, aligned for any type */
 static inline void *arena_room(struct arena *arena, size_t size);  /* the same, not zeroed */
-void *arena_array(struct arena *arena, size_t count,
-                  size_t size); /* zeroed; count * size may not overflow */
+void *arena_array(struct arena *arena, size_t count, size_t size); /* zeroed; count * size may not overflow */
 /* `array` of `from` bytes with room for `to`, which is more; what it had stays, what is new is not zeroed. A
  * large one takes no room twice. `array` may be NULL. */
 void *arena_resize(struct arena *arena, void *array, size_t from, size_t to);

@@ -181,8 +181,7 @@ bool check_size(struct checker *ck, const struct grammar_key *key, const struct 
     double v[2];
     const enum quantity_result whole = read_size(ck, key, node, v);
     if (whole == QUANTITY_WRONG || (whole == QUANTITY_UNKNOWN && !ck->rehearsing)) return false;
-    if (whole == QUANTITY_NONE && !check_row(ck, key, node, "[width, height]", 2, names, v))
-        return false;
+    if (whole == QUANTITY_NONE && !check_row(ck, key, node, "[width, height]", 2, names, v)) return false;
     *out = (vec3){v[0], v[1], 0};
     return true;
 }
