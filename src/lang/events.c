@@ -59,7 +59,7 @@ static bool batch_grow(struct batch *b, size_t bytes, bool *out_of_memory) {
 }
 
 /* A copy, for which there is room; NULL of NULL. */
-static inline const char *keep(struct batch *b, const yaml_char_t *text, size_t size) {
+static const char *keep(struct batch *b, const yaml_char_t *text, size_t size) {
     if (!text) return NULL;
     char *copy = memcpy(b->text + b->used, text, size);
     copy[size] = '\0';
@@ -120,8 +120,8 @@ static bool batch_add(struct batch *b, const yaml_event_t *e, bool *out_of_memor
         break;
     default: break;
     }
-    const size_t anchor_size = length(anchor), tag_size = length(tag);
-    const size_t bytes = size + anchor_size + tag_size + 3;
+    size_t bytes = size + 1;
+    if (anchor || tag) bytes += length(anchor) + 1 + length(tag) + 1;
     if (b->room - b->used < bytes && !batch_grow(b, bytes, out_of_memory)) return false;
     struct event *out = &b->events[b->count++];
     out->kind = kind;
@@ -130,14 +130,14 @@ static bool batch_add(struct batch *b, const yaml_event_t *e, bool *out_of_memor
     out->to = mark_of(&e->end_mark);
     out->text = keep(b, text, size);
     out->size = size;
-    out->anchor = keep(b, anchor, anchor_size);
-    out->tag = keep(b, tag, tag_size);
+    out->anchor = anchor ? keep(b, anchor, length(anchor)) : NULL;
+    out->tag = tag ? keep(b, tag, length(tag)) : NULL;
     return true;
 }
 
 /* What begins or ends a collection owns nothing, in most cases. */
 static void drop(yaml_event_t *e, const struct event *kept) {
-    const bool owns = kept->text || kept->anchor || kept->tag || kept->kind <= EVENT_DOCUMENT_END;
+    const bool owns = kept->text || kept->anchor || kept->tag || kept->kind == EVENT_DOCUMENT_START;
     if (owns)
         yaml_event_delete(e);
     else

@@ -519,7 +519,7 @@ struct node *node_parse(struct arena *arena, struct diagnostics *diag, const str
                         .limits = limits,
                         .stream = stream,
                         .problem = problem};
-    rd.events = events_begin(source, source->size >= LONG);
+    rd.events = events_begin(source, source->size > LONG);
     if (!rd.events) {
         diag_failure(diag, "out-of-memory", "%s: out of memory", source->name);
         return NULL;
