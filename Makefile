@@ -48,7 +48,7 @@ endif
 object = $(patsubst %.c,$(BUILD)/obj/%.o,$(1))
 OBJECTS := $(call object,$(filter-out src/cli/%,$(SOURCES))) $(patsubst $(BUILD)/%,$(BUILD)/obj/%.o,$(GRAMMAR) $(STORIES))
 CLI_OBJECTS := $(call object,$(filter src/cli/%,$(SOURCES)))
-TOOL_OBJECTS := $(call object,$(wildcard src/base/*.c src/lang/yaml.c src/lang/spelling.c))
+TOOL_OBJECTS := $(call object,$(wildcard src/base/*.c src/lang/yaml.c src/lang/events.c src/lang/spelling.c))
 
 UNIT_PROGRAMS := $(UNIT:tests/unit/%.c=$(BUILD)/tests/%)
 TESTS := $(UNIT_PROGRAMS) $(wildcard tests/*.sh)

@@ -1,6 +1,5 @@
 #include "base/arena.h"
 
-#include <stdalign.h>
 #include <stdarg.h>
 #include <stdbool.h>
 #include <stdint.h>
@@ -9,16 +8,10 @@
 #include <string.h>
 
 #ifdef MONGE_HOSTILE
-enum { ARENA_BLOCK_SIZE = 64 };
+enum { ARENA_BLOCK_SIZE = 64, ARENA_SPARES = false }; /* what is used after its release is found */
 #else
-enum { ARENA_BLOCK_SIZE = 64 * 1024 };
+enum { ARENA_BLOCK_SIZE = 64 * 1024, ARENA_SPARES = true };
 #endif
-
-struct arena_block {
-    struct arena_block *next;
-    size_t used, size; /* bytes of `data` */
-    alignas(max_align_t) unsigned char data[];
-};
 
 static _Noreturn void arena_full(struct arena *arena) {
     while (arena->parent) arena = arena->parent;
@@ -40,27 +33,42 @@ static bool has_room(const struct arena *arena, size_t bytes) {
     return true;
 }
 
-static struct arena_block *arena_grow(struct arena *arena, size_t size) {
+static void count_bytes(struct arena *arena, size_t more, size_t less) {
+    for (; arena; arena = arena->parent) arena->total += more - less;
+}
+
+static void free_block(struct arena *arena, struct arena_block *block) {
+    count_bytes(arena, 0, sizeof *block + block->size);
+    free(block);
+}
+
+static void free_spare(struct arena *arena) {
+    if (arena->spare) free_block(arena, arena->spare);
+    arena->spare = NULL;
+}
+
+static struct arena_block *new_block(struct arena *arena, size_t size) {
     const size_t room = size > ARENA_BLOCK_SIZE ? size : ARENA_BLOCK_SIZE;
     if (room > SIZE_MAX - sizeof(struct arena_block)) arena_full(arena);
     const size_t bytes = sizeof(struct arena_block) + room;
     struct arena_block *block = has_room(arena, bytes) ? malloc(bytes) : NULL;
     if (!block) arena_full(arena);
-    *block = (struct arena_block){.next = arena->head, .size = room};
-    arena->head = block;
-    for (struct arena *a = arena; a; a = a->parent) a->total += bytes;
+    *block = (struct arena_block){.size = room};
+    count_bytes(arena, bytes, 0);
     return block;
 }
 
-void *arena_room(struct arena *arena, size_t size) {
+void *arena_room_in_new_block(struct arena *arena, size_t size) {
     const size_t unit = alignof(max_align_t);
     if (size > SIZE_MAX - unit) arena_full(arena);
     const size_t rounded = (size + unit - 1) / unit * unit;
-    struct arena_block *block = arena->head;
-    if (!block || block->size - block->used < rounded) block = arena_grow(arena, rounded);
-    void *result = block->data + block->used;
-    block->used += rounded;
-    return result;
+    if (arena->spare && arena->spare->size < rounded) free_spare(arena);
+    struct arena_block *block = arena->spare ? arena->spare : new_block(arena, rounded);
+    arena->spare = NULL;
+    block->next = arena->head;
+    block->used = rounded;
+    arena->head = block;
+    return block->data;
 }
 
 void *arena_alloc(struct arena *arena, size_t size) { return memset(arena_room(arena, size), 0, size); }
@@ -90,7 +98,7 @@ void *arena_resize(struct arena *arena, void *array, size_t from, size_t to) {
     if (!block) arena_full(arena);
     *link = block;
     block->used = block->size = rounded;
-    for (struct arena *a = arena; a; a = a->parent) a->total += more;
+    count_bytes(arena, more, 0);
     return block->data;
 }
 
@@ -120,10 +128,15 @@ void arena_release(struct arena *arena, struct arena_mark mark) {
     while (arena->head != mark.block) {
         struct arena_block *block = arena->head;
         arena->head = block->next;
-        for (struct arena *a = arena; a; a = a->parent) a->total -= sizeof *block + block->size;
-        free(block);
+        if (ARENA_SPARES && !arena->spare && block->size == ARENA_BLOCK_SIZE)
+            arena->spare = block;
+        else
+            free_block(arena, block);
     }
     if (arena->head) arena->head->used = mark.used;
 }
 
-void arena_free(struct arena *arena) { arena_release(arena, (struct arena_mark){NULL, 0}); }
+void arena_free(struct arena *arena) {
+    arena_release(arena, (struct arena_mark){NULL, 0});
+    free_spare(arena);
+}

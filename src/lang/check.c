@@ -272,7 +272,8 @@ static struct value *check_field(struct checker *ck, const struct grammar_kind *
         return NULL;
     }
     const struct surrounding outer = ck->around;
-    struct value *value = arena_alloc(ck->arena, sizeof *value);
+    struct value *value = arena_room(ck->arena, sizeof *value);
+    *value = (struct value){.span = name->next->span};
     ck->around = (struct surrounding){kind, key};
     const bool ok = check_value(ck, key, name->next, value);
     ck->around = outer;
@@ -285,14 +286,16 @@ static void report_twice(struct checker *ck, const struct grammar_key *key, cons
     diag_related(ck->diag, d, first->span, "first given here");
 }
 
+static bool is_meant(const struct mapping *mapping, int index) { return mapping->meant >> index & 1; }
+
 /* What stands under a key that nobody knows is checked as what was probably meant, so that its
  * mistakes come to light in the same run. */
 static void check_unknown(struct checker *ck, struct object_value *object, struct mapping *mapping,
                           const struct node *name) {
     const int index = report_unknown_key(ck, object->kind, mapping, name);
     if (index < 0) return;
-    const bool again = mapping->given[index] || mapping->meant[index];
-    mapping->meant[index] = true;
+    const bool again = mapping->given[index] || is_meant(mapping, index);
+    mapping->meant |= (uint64_t)1 << index;
     const struct grammar_key *key = &object->kind->keys[index];
     const struct value *value = again ? NULL : check_field(ck, object->kind, key, name);
     const bool knows_names =
@@ -329,7 +332,7 @@ static void check_required(struct checker *ck, struct object_value *object, cons
             (ck->included && object->kind == &grammar_kinds[KIND_FILE]))
             continue;
         object->failed = true;
-        if (mapping->meant[i]) continue; /* reported as an unknown key */
+        if (is_meant(mapping, i)) continue; /* reported as an unknown key */
         struct diagnostic *d = diag_error(ck->diag, object->span, "missing-key", "%s needs the key `%s`",
                                           object->kind->title, key->name);
         if (key->example) diag_help(ck->diag, d, "as in `%s`", key->example);
@@ -393,7 +396,7 @@ static void check_companion(struct checker *ck, struct object_value *object, con
         const int needed = grammar_find_key(object->kind, *other);
         if (mapping->given[needed]) continue;
         object->failed = true;
-        if (mapping->meant[needed]) continue;
+        if (is_meant(mapping, needed)) continue;
         struct diagnostic *d =
             diag_error(ck->diag, here->span, "missing-key", "`%s` needs `%s` beside it", key->name, *other);
         if (key->example) diag_help(ck->diag, d, "as in `%s`", key->example);
@@ -408,8 +411,9 @@ static int key_index(const struct grammar_kind *kind, const struct node *key) {
 /* Returns whether a key is unknown. */
 static bool check_pairs(struct checker *ck, struct object_value *object, struct mapping *mapping) {
     bool unknown = false;
-    for (const struct node *name = mapping->node->first; name; name = name->next->next) {
-        const int index = key_index(object->kind, name);
+    int pair = 0;
+    for (const struct node *name = mapping->node->first; name; name = name->next->next, pair++) {
+        const int index = pair < CHECK_MAX_KEYS ? mapping->index[pair] : key_index(object->kind, name);
         unknown |= index < 0;
         if (!check_pair(ck, object, mapping, name, index)) object->failed = true;
     }
@@ -419,10 +423,12 @@ static bool check_pairs(struct checker *ck, struct object_value *object, struct 
 /* Bit i: key i of the kind is in the mapping. */
 static uint64_t find_given(const struct grammar_kind *kind, struct mapping *mapping) {
     uint64_t given = 0;
+    int pair = 0;
     memset(mapping->given, 0, (size_t)kind->key_count * sizeof *mapping->given);
-    memset(mapping->meant, 0, (size_t)kind->key_count * sizeof *mapping->meant);
-    for (const struct node *name = mapping->node->first; name; name = name->next->next) {
+    mapping->meant = 0;
+    for (const struct node *name = mapping->node->first; name; name = name->next->next, pair++) {
         const int index = key_index(kind, name);
+        if (pair < CHECK_MAX_KEYS) mapping->index[pair] = (signed char)index;
         if (index < 0 || mapping->given[index]) continue;
         mapping->given[index] = name;
         given |= (uint64_t)1 << index;

@@ -95,7 +95,8 @@ struct mapping {
     const struct node *node;           /* NODE_MAPPING */
     const struct object_value *object; /* what it becomes; its span is the alias's where there is one */
     const struct node *given[CHECK_MAX_KEYS]; /* the first node of each key of the kind; NULL: not there */
-    bool meant[CHECK_MAX_KEYS];               /* an unknown key was probably this one */
+    signed char index[CHECK_MAX_KEYS];        /* which keys the first pairs have, in their order; -1: unknown */
+    uint64_t meant;                           /* bit i: an unknown key was probably this one */
 };
 
 /* ---- scalars.c: one value each. False when it was reported as wrong; *out is then untouched. ---- */
@@ -103,6 +104,8 @@ struct mapping {
 /* A number, also by an expression. */
 bool check_number(struct checker *ck, const struct grammar_key *key, const struct node *node, double *out);
 bool check_integer(struct checker *ck, const struct grammar_key *key, const struct node *node, double *out);
+/* Whether the number that the node gives is in the key's range. Reported if not. */
+bool check_in_range(struct checker *ck, const struct grammar_key *key, const struct node *node, double value);
 /* Also the value of an expression: 0 is false. */
 bool check_boolean(struct checker *ck, const struct grammar_key *key, const struct node *node, int *out);
 bool check_choice(struct checker *ck, const struct grammar_key *key, const struct node *node, int *out);

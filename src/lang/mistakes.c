@@ -242,7 +242,7 @@ static bool help_around(struct checker *ck, struct diagnostic *d, const struct g
                   word);
     else if (outer)
         diag_help(ck->diag, d, "it belongs beside `%s`, not into it", around->key->name);
-    if (inner) mapping->meant[inner - kind->keys] = true;
+    if (inner) mapping->meant |= (uint64_t)1 << (inner - kind->keys);
     return inner || outer;
 }
 

@@ -3,8 +3,6 @@
 
 #include "lang/checker.h"
 
-typedef bool check_item(struct checker *, const struct grammar_key *, const struct node *, double *);
-
 static bool all_scalars(const struct node *n) {
     for (const struct node *item = n->first; item; item = item->next)
         if (node_resolve(item)->kind != NODE_SCALAR) return false;
@@ -63,11 +61,28 @@ static void help_decimal_comma(struct checker *ck, struct diagnostic *d, const s
     }
 }
 
-/* Exactly `count` numbers of a list, checked one by one with `check`. */
+/* Most rows are as many plain numbers as there should be. Whether this one is; if not, *out means nothing. */
+static bool read_plain(struct checker *ck, const struct grammar_key *key, const struct node *n, int count,
+                       double *out) {
+    if (n->kind != NODE_SEQUENCE || n->count != (uint32_t)count || key->type == GRAMMAR_SIZE) return false;
+    for (const struct node *item = n->first; item; item = item->next)
+        if (item->kind != NODE_SCALAR || !scalar_number(ck, item->text, out++)) return false;
+    return true;
+}
+
+static bool all_in_range(struct checker *ck, const struct grammar_key *key, const struct node *n,
+                         const double *value) {
+    bool ok = true;
+    for (const struct node *item = n->first; item; item = item->next)
+        ok &= check_in_range(ck, key, item, *value++);
+    return ok;
+}
+
+/* Exactly `count` numbers of a list, of a size whole ones. */
 static bool check_row(struct checker *ck, const struct grammar_key *key, const struct node *node,
-                      const char *form, int count, const char *const names[3], check_item *check,
-                      double *out) {
+                      const char *form, int count, const char *const names[3], double *out) {
     const struct node *n = node_resolve(node);
+    if (read_plain(ck, key, n, count, out)) return all_in_range(ck, key, n, out);
     if (n->kind != NODE_SEQUENCE) {
         struct diagnostic *d = diag_error(ck->diag, node->span, "not-a-row", "`%s`: expected %s, found %s",
                                           key->name, form, found_text(ck, node));
@@ -93,7 +108,8 @@ static bool check_row(struct checker *ck, const struct grammar_key *key, const s
     bool ok = true;
     int i = 0;
     for (const struct node *item = n->first; item; item = item->next, i++)
-        ok &= check(ck, key, item, &out[i]);
+        ok &= key->type == GRAMMAR_SIZE ? check_integer(ck, key, item, &out[i])
+                                        : check_number(ck, key, item, &out[i]);
     return ok;
 }
 
@@ -129,7 +145,7 @@ bool check_vector(struct checker *ck, const struct grammar_key *key, const struc
         v[1] = v[2] = v[0];
     } else if (whole == QUANTITY_NONE) {
         const char *form = key->type == GRAMMAR_FACTORS ? "a number or [x, y, z]" : "[x, y, z]";
-        if (!check_row(ck, key, node, form, 3, names, check_number, v)) return false;
+        if (!check_row(ck, key, node, form, 3, names, v)) return false;
     }
     if (key->type == GRAMMAR_DIRECTION && !ck->rehearsing && v[0] == 0.0 && v[1] == 0.0 && v[2] == 0.0) {
         diag_help(
@@ -165,8 +181,7 @@ bool check_size(struct checker *ck, const struct grammar_key *key, const struct 
     double v[2];
     const enum quantity_result whole = read_size(ck, key, node, v);
     if (whole == QUANTITY_WRONG || (whole == QUANTITY_UNKNOWN && !ck->rehearsing)) return false;
-    if (whole == QUANTITY_NONE && !check_row(ck, key, node, "[width, height]", 2, names, check_integer, v))
-        return false;
+    if (whole == QUANTITY_NONE && !check_row(ck, key, node, "[width, height]", 2, names, v)) return false;
     *out = (vec3){v[0], v[1], 0};
     return true;
 }
@@ -185,7 +200,7 @@ bool check_matrix(struct checker *ck, const struct grammar_key *key, const struc
     bool ok = true;
     int i = 0;
     for (const struct node *row = n->first; row; row = row->next)
-        ok &= check_row(ck, key, row, "four numbers in a row", 4, NULL, check_number, rows[i++]);
+        ok &= check_row(ck, key, row, "four numbers in a row", 4, NULL, rows[i++]);
     if (!ok) return false;
     if (rows[3][0] != 0 || rows[3][1] != 0 || rows[3][2] != 0 || rows[3][3] != 1) {
         const bool columns = rows[0][3] == 0 && rows[1][3] == 0 && rows[2][3] == 0 && rows[3][3] == 1;

@@ -290,11 +290,8 @@ static const char *range_text(struct checker *ck, const struct grammar_key *key)
     return arena_format(ck->arena, key->above ? "over %.15g" : "%.15g or more", key->min);
 }
 
-static bool in_range(struct checker *ck, const struct grammar_key *key, const struct node *node,
-                     double value) {
-    const bool low = key->has_min && !(key->above ? value > key->min : value >= key->min);
-    const bool high = key->has_max && !(value <= key->max);
-    if (!low && !high) return true;
+static bool report_out_of_range(struct checker *ck, const struct grammar_key *key, const struct node *node,
+                                double value, bool high) {
     if (only_counted(ck, node->span)) return false;
     const struct node *n = node_resolve(node);
     const bool written = n->kind == NODE_SCALAR && scalar_is_number(n->text);
@@ -308,11 +305,18 @@ static bool in_range(struct checker *ck, const struct grammar_key *key, const st
     return false;
 }
 
+bool check_in_range(struct checker *ck, const struct grammar_key *key, const struct node *node,
+                    double value) {
+    const bool low = key->has_min && !(key->above ? value > key->min : value >= key->min);
+    const bool high = key->has_max && !(value <= key->max);
+    return (!low && !high) || report_out_of_range(ck, key, node, value, high);
+}
+
 bool check_number(struct checker *ck, const struct grammar_key *key, const struct node *node, double *out) {
     double value;
     const enum quantity_result result = read_number(ck, key, node, &value);
     if (result == QUANTITY_UNKNOWN) return take_default(ck, key, out);
-    if (result != QUANTITY_OK || !in_range(ck, key, node, value)) return false;
+    if (result != QUANTITY_OK || !check_in_range(ck, key, node, value)) return false;
     *out = value;
     return true;
 }
@@ -327,7 +331,7 @@ bool check_integer(struct checker *ck, const struct grammar_key *key, const stru
                    found_text(ck, node));
         return false;
     }
-    if (!in_range(ck, key, node, value)) return false;
+    if (!check_in_range(ck, key, node, value)) return false;
     *out = value;
     return true;
 }

@@ -1,8 +1,8 @@
-/* From libyaml's events to nodes. */
+/* From events to nodes. */
 #include <string.h>
-#include <yaml.h>
 
 #include "base/table.h"
+#include "lang/events.h"
 #include "lang/node.h"
 #include "lang/spelling.h"
 
@@ -16,8 +16,8 @@ struct anchor {
 };
 
 struct reader {
-    yaml_parser_t parser;
-    yaml_event_t event; /* the current one */
+    struct events *events;
+    const struct event *event; /* the current one; NULL: none yet, or no more */
     struct arena *arena;
     struct diagnostics *diag;
     const struct source *source;
@@ -45,19 +45,27 @@ struct node *node_get(const struct node *mapping, const char *key) {
 
 bool node_is_null(const struct node *node) {
     const struct node *n = node_resolve(node);
-    return n->kind == NODE_SCALAR && !n->quoted &&
-           (n->count == 0 || strcmp(n->text, "~") == 0 || strcmp(n->text, "null") == 0 ||
-            strcmp(n->text, "Null") == 0 || strcmp(n->text, "NULL") == 0);
+    if (n->kind != NODE_SCALAR || n->quoted) return false;
+    switch (n->text[0]) {
+    case '\0': return true;
+    case '~': return n->count == 1;
+    case 'n': return strcmp(n->text, "null") == 0;
+    case 'N': return strcmp(n->text, "Null") == 0 || strcmp(n->text, "NULL") == 0;
+    default: return false;
+    }
 }
 
 /* ---- Events and marks ---- */
 
-static struct span span_of(const struct reader *rd, yaml_mark_t from, yaml_mark_t to) {
-    const size_t length = from.line == to.line && to.column > from.column ? to.column - from.column : 1;
-    return (struct span){rd->source, (uint32_t)from.line, (uint32_t)from.column, (uint32_t)length};
+static struct span span_of(const struct reader *rd, const struct event *e) {
+    const uint32_t length =
+        e->from.line == e->to.line && e->to.column > e->from.column ? e->to.column - e->from.column : 1;
+    return (struct span){rd->source, e->from.line, e->from.column, length};
 }
 
-static struct span span_at(const struct reader *rd, yaml_mark_t at) { return span_of(rd, at, at); }
+static struct span span_at(const struct reader *rd, struct event_mark at) {
+    return (struct span){rd->source, at.line, at.column, 1};
+}
 
 /* Where a reader error is, which libyaml gives as an offset in bytes alone. */
 static struct span span_of_offset(const struct reader *rd, size_t offset) {
@@ -74,41 +82,39 @@ static struct span span_of_offset(const struct reader *rd, size_t offset) {
 }
 
 static void keep_problem(struct reader *rd) {
-    const yaml_parser_t *p = &rd->parser;
-    if (p->error == YAML_MEMORY_ERROR) {
+    const struct event_problem p = events_problem(rd->events);
+    if (!p.text) {
         diag_failure(rd->diag, "out-of-memory", "%s: out of memory", rd->source->name);
         return;
     }
-    rd->problem->text = p->problem ? p->problem : "not YAML";
-    rd->problem->context = p->context ? p->context : "";
-    rd->problem->at =
-        p->error == YAML_READER_ERROR ? span_of_offset(rd, p->problem_offset) : span_at(rd, p->problem_mark);
-    rd->problem->context_at = span_at(rd, p->context_mark);
+    rd->problem->text = p.text;
+    rd->problem->context = p.context;
+    rd->problem->at = p.is_offset ? span_of_offset(rd, p.offset) : span_at(rd, p.at);
+    rd->problem->context_at = span_at(rd, p.context_at);
 }
 
 /* A text in quotes that ends where something unexpected follows may have begun far above. */
 static void keep_quoted(struct reader *rd) {
-    const yaml_event_t *e = &rd->event;
-    if (e->type != YAML_SCALAR_EVENT) return;
-    const yaml_scalar_style_t style = e->data.scalar.style;
-    if (style != YAML_SINGLE_QUOTED_SCALAR_STYLE && style != YAML_DOUBLE_QUOTED_SCALAR_STYLE) return;
-    rd->problem->quoted_at = span_at(rd, e->start_mark);
-    rd->problem->quoted_end = span_at(rd, e->end_mark);
+    rd->problem->quoted_at = span_at(rd, rd->event->from);
+    rd->problem->quoted_end = span_at(rd, rd->event->to);
+}
+
+static bool is_quoted(const struct event *e) {
+    return e->style == EVENT_SINGLE_QUOTED || e->style == EVENT_DOUBLE_QUOTED;
 }
 
 static bool next_event(struct reader *rd) {
-    keep_quoted(rd);
-    yaml_event_delete(&rd->event);
-    if (yaml_parser_parse(&rd->parser, &rd->event)) return true;
-    keep_problem(rd);
-    return false;
+    if (rd->event && is_quoted(rd->event)) keep_quoted(rd);
+    rd->event = events_next(rd->events);
+    if (!rd->event) keep_problem(rd);
+    return rd->event;
 }
 
 /* Counts one more node against the limit. */
-static bool count_node(struct reader *rd, struct span span) {
+static bool count_node(struct reader *rd, const struct node *node) {
     rd->values += 1.0;
     if (++rd->nodes <= rd->limits->nodes) return true;
-    diag_error(rd->diag, span, "limit-values", "more than %zu values in one file (the limit `values`)",
+    diag_error(rd->diag, node->span, "limit-values", "more than %zu values in one file (the limit `values`)",
                rd->limits->nodes);
     return false;
 }
@@ -130,11 +136,9 @@ static const struct anchor *larger(const struct anchor *a, const struct anchor *
     return !a || (b && b->values > a->values) ? b : a;
 }
 
-static struct anchor *add_anchor(struct reader *rd, const yaml_char_t *name, struct node *node) {
+static struct anchor *add_anchor(struct reader *rd, const char *name, struct node *node) {
     struct anchor *a = arena_alloc(rd->arena, sizeof *a);
-    *a = (struct anchor){.name = arena_text(rd->arena, (const char *)name, strlen((const char *)name)),
-                         .node = node,
-                         .open = true};
+    *a = (struct anchor){.name = arena_text(rd->arena, name, strlen(name)), .node = node, .open = true};
     table_put(rd->arena, &rd->anchors, a->name, a);
     node->anchor = ++rd->anchor_count;
     return a;
@@ -175,7 +179,7 @@ static bool report_no_anchor(struct reader *rd, const struct node *node, const c
 }
 
 static bool read_alias(struct reader *rd, struct node *node) {
-    const char *name = (const char *)rd->event.data.alias.anchor;
+    const char *name = rd->event->text;
     const struct anchor *a = table_find(&rd->anchors, name);
     if (!a) return report_no_anchor(rd, node, name);
     if (a->open) {
@@ -309,7 +313,7 @@ static bool read_streamed(struct reader *rd, struct node *list) {
     rd->nesting++;
     for (;;) {
         if (!next_event(rd)) return false;
-        if (rd->event.type == YAML_SEQUENCE_END_EVENT) break;
+        if (rd->event->kind == EVENT_SEQUENCE_END) break;
         const struct arena_mark before = arena_mark(rd->arena);
         const uint32_t anchors = rd->anchor_count;
         rd->passing = true;
@@ -340,28 +344,26 @@ static void begin_stream(const struct reader *rd, struct node *root, struct node
 }
 
 static struct node *read_stream_list(struct reader *rd) {
-    struct node *list = arena_alloc(rd->arena, sizeof *list);
-    list->span = span_of(rd, rd->event.start_mark, rd->event.end_mark);
-    list->kind = NODE_SEQUENCE;
-    return count_node(rd, list->span) && read_streamed(rd, list) ? list : NULL;
+    struct node *list = arena_room(rd->arena, sizeof *list);
+    *list = (struct node){.span = span_of(rd, rd->event), .kind = NODE_SEQUENCE};
+    return count_node(rd, list) && read_streamed(rd, list) ? list : NULL;
 }
 
 /* Whether the node that the current event starts, the value of `key` in the root, is the list to stream. */
 static bool is_streamed(const struct reader *rd, const struct node *key) {
-    return rd->stream && rd->nesting == 1 && rd->event.type == YAML_SEQUENCE_START_EVENT &&
-           !rd->event.data.sequence_start.anchor && !rd->event.data.sequence_start.tag &&
-           key->kind == NODE_SCALAR && strcmp(key->text, rd->stream->key) == 0;
+    return rd->stream && rd->nesting == 1 && rd->event->kind == EVENT_SEQUENCE_START && !rd->event->anchor &&
+           !rd->event->tag && key->kind == NODE_SCALAR && strcmp(key->text, rd->stream->key) == 0;
 }
 
 /* Children up to the event `end`, linked; the current event starts the collection. */
-static bool read_children(struct reader *rd, struct node *node, yaml_event_type_t end) {
+static bool read_children(struct reader *rd, struct node *node, enum event_kind end) {
     struct node **tail = &node->first, **last = tail;
     uint32_t count = 0;
     unsigned height = 0;
     for (;; count++) {
         if (!next_event(rd)) return false;
-        if (rd->event.type == end) break;
-        const bool streamed = count % 2 == 1 && end == YAML_MAPPING_END_EVENT && is_streamed(rd, *last);
+        if (rd->event->kind == end) break;
+        const bool streamed = count % 2 == 1 && end == EVENT_MAPPING_END && is_streamed(rd, *last);
         if (streamed) begin_stream(rd, node, last);
         struct node *child = streamed ? read_stream_list(rd) : read_node(rd);
         if (!child) return false;
@@ -371,7 +373,7 @@ static bool read_children(struct reader *rd, struct node *node, yaml_event_type_
         tail = &child->next;
     }
     rd->height = height + 1;
-    node->count = end == YAML_MAPPING_END_EVENT ? count / 2 : count;
+    node->count = end == EVENT_MAPPING_END ? count / 2 : count;
     return true;
 }
 
@@ -379,18 +381,16 @@ static bool read_collection(struct reader *rd, struct node *node, bool mapping) 
     if (!nesting_allowed(rd, node, 1, NULL)) return false;
     rd->nesting++;
     node->kind = mapping ? NODE_MAPPING : NODE_SEQUENCE;
-    const bool ok = read_children(rd, node, mapping ? YAML_MAPPING_END_EVENT : YAML_SEQUENCE_END_EVENT) &&
+    const bool ok = read_children(rd, node, mapping ? EVENT_MAPPING_END : EVENT_SEQUENCE_END) &&
                     (!mapping || merge_all(rd, node));
     rd->nesting--;
     return ok;
 }
 
-static bool tag_allowed(struct reader *rd, const yaml_char_t *tag, const struct node *node) {
+static bool tag_allowed(struct reader *rd, const char *tag, const struct node *node) {
     const char *core = "tag:yaml.org,2002:";
-    if (!tag || strcmp((const char *)tag, "!") == 0 || strncmp((const char *)tag, core, strlen(core)) == 0)
-        return true;
-    struct diagnostic *d =
-        diag_error(rd->diag, node->span, "tag", "a scene has no tags, found `%.40s`", (const char *)tag);
+    if (strcmp(tag, "!") == 0 || strncmp(tag, core, strlen(core)) == 0) return true;
+    struct diagnostic *d = diag_error(rd->diag, node->span, "tag", "a scene has no tags, found `%.40s`", tag);
     diag_help(rd->diag, d,
               tag[0] == '!' ? "remove it; an expression that starts with `!` needs quotes"
                             : "remove the tag");
@@ -399,43 +399,40 @@ static bool tag_allowed(struct reader *rd, const yaml_char_t *tag, const struct 
 
 /* The text stands behind its node, in one piece of memory, see read_node. */
 static bool read_scalar(struct reader *rd, struct node *node) {
-    const yaml_event_t *e = &rd->event;
-    const char *text = (const char *)e->data.scalar.value;
-    const size_t size = e->data.scalar.length;
-    if (memchr(text, '\0', size)) {
+    const struct event *e = rd->event;
+    if (e->style == EVENT_DOUBLE_QUOTED && memchr(e->text, '\0', e->size)) {
         diag_help(rd->diag,
                   diag_error(rd->diag, node->span, "bad-character", "a text with the character NUL in it"),
                   "remove the `\\0`");
         return false;
     }
     node->kind = NODE_SCALAR;
-    node->quoted = e->data.scalar.style != YAML_PLAIN_SCALAR_STYLE;
-    node->count = (uint32_t)size;
-    node->text = memcpy(node + 1, text, size);
+    node->quoted = e->style != EVENT_PLAIN;
+    node->count = (uint32_t)e->size;
+    node->text = memcpy(node + 1, e->text, e->size + 1);
     rd->height = 0;
     return true;
 }
 
 /* Without the anchor and the tag that libyaml counts to a node: of plain text on one line. */
-static void narrow_span(struct node *node, const yaml_event_t *e) {
+static void narrow_span(struct node *node, const struct event *e) {
     uint32_t length = 0;
     for (const char *c = node->text; *c; c++) length += ((unsigned char)*c & 0xc0) != 0x80;
-    if (node->quoted || e->start_mark.line != e->end_mark.line || length == 0 || length >= node->span.length)
-        return;
+    if (node->quoted || e->from.line != e->to.line || length == 0 || length >= node->span.length) return;
     node->span.column += node->span.length - length;
     node->span.length = length;
 }
 
 static bool read_content(struct reader *rd, struct node *node) {
-    const bool scalar = rd->event.type == YAML_SCALAR_EVENT;
-    if (!scalar) return read_collection(rd, node, rd->event.type == YAML_MAPPING_START_EVENT);
+    if (rd->event->kind != EVENT_SCALAR)
+        return read_collection(rd, node, rd->event->kind == EVENT_MAPPING_START);
     if (!read_scalar(rd, node)) return false;
-    if (rd->event.data.scalar.anchor || rd->event.data.scalar.tag) narrow_span(node, &rd->event);
+    narrow_span(node, rd->event);
     return true;
 }
 
 /* An anchored node: what it takes to repeat it is kept with its name. */
-static bool read_anchored(struct reader *rd, struct node *node, const yaml_char_t *name) {
+static bool read_anchored(struct reader *rd, struct node *node, const char *name) {
     const struct anchor *outer = rd->largest;
     const double before = rd->values - 1.0; /* the node itself is counted */
     struct anchor *a = add_anchor(rd, name, node);
@@ -446,25 +443,25 @@ static bool read_anchored(struct reader *rd, struct node *node, const yaml_char_
     return true;
 }
 
+/* A node with an anchor, a tag or both. */
+static bool read_marked(struct reader *rd, struct node *node) {
+    const char *anchor = rd->event->anchor, *tag = rd->event->tag;
+    if (tag && !tag_allowed(rd, tag, node)) return false;
+    return anchor ? read_anchored(rd, node, anchor) : read_content(rd, node);
+}
+
 /* The node that the current event starts; NULL when it was reported as wrong. */
 static struct node *read_node(struct reader *rd) {
-    const yaml_event_t *e = &rd->event;
-    const size_t text = e->type == YAML_SCALAR_EVENT ? e->data.scalar.length + 1 : 0;
-    struct node *node = arena_alloc(rd->arena, sizeof *node + text);
-    node->span = span_of(rd, e->start_mark, e->end_mark);
-    node->passing = rd->passing;
-    if (!count_node(rd, node->span)) return NULL;
-    if (e->type == YAML_ALIAS_EVENT) return read_alias(rd, node) ? node : NULL;
-
-    const bool scalar = e->type == YAML_SCALAR_EVENT, mapping = e->type == YAML_MAPPING_START_EVENT;
-    const yaml_char_t *tag = scalar    ? e->data.scalar.tag
-                             : mapping ? e->data.mapping_start.tag
-                                       : e->data.sequence_start.tag;
-    if (!tag_allowed(rd, tag, node)) return NULL;
-    const yaml_char_t *anchor = scalar    ? e->data.scalar.anchor
-                                : mapping ? e->data.mapping_start.anchor
-                                          : e->data.sequence_start.anchor;
-    return (anchor ? read_anchored(rd, node, anchor) : read_content(rd, node)) ? node : NULL;
+    const struct event *e = rd->event;
+    const size_t text = e->kind == EVENT_SCALAR ? e->size + 1 : 0;
+    struct node *node = arena_room(rd->arena, sizeof *node + text);
+    *node = (struct node){.span = span_of(rd, e), .passing = rd->passing};
+    if (!count_node(rd, node)) return NULL;
+    const bool ok = e->kind == EVENT_ALIAS    ? read_alias(rd, node)
+                    : e->anchor || e->tag     ? read_marked(rd, node)
+                    : e->kind == EVENT_SCALAR ? read_scalar(rd, node)
+                                              : read_collection(rd, node, e->kind == EVENT_MAPPING_START);
+    return ok ? node : NULL;
 }
 
 /* ---- Documents ---- */
@@ -491,12 +488,12 @@ static bool tag_directives_allowed(struct reader *rd) {
 
 static struct node *read_stream(struct reader *rd) {
     if (!tag_directives_allowed(rd) || !next_event(rd) /* stream start */ || !next_event(rd)) return NULL;
-    if (rd->event.type == YAML_STREAM_END_EVENT && !report_empty(rd)) return NULL;
+    if (rd->event->kind == EVENT_STREAM_END && !report_empty(rd)) return NULL;
     if (!next_event(rd)) return NULL;
     struct node *root = read_node(rd);
     if (!root || !next_event(rd) /* document end */ || !next_event(rd)) return NULL;
-    if (rd->event.type != YAML_STREAM_END_EVENT) {
-        struct diagnostic *d = diag_error(rd->diag, span_at(rd, rd->event.start_mark), "second-document",
+    if (rd->event->kind != EVENT_STREAM_END) {
+        struct diagnostic *d = diag_error(rd->diag, span_at(rd, rd->event->from), "second-document",
                                           "a second document in the file");
         diag_help(rd->diag, d, "a scene is one document: it would be ignored; remove it, or this `---`");
         return NULL;
@@ -505,6 +502,13 @@ static struct node *read_stream(struct reader *rd) {
     if (rd->is_beyond && !report_expansion(rd, rd->largest)) return NULL;
     return root;
 }
+
+/* Bytes of a text from where on a thread is worth its while. */
+#ifdef MONGE_HOSTILE
+enum { LONG = 0 };
+#else
+enum { LONG = 256 * 1024 };
+#endif
 
 struct node *node_parse(struct arena *arena, struct diagnostics *diag, const struct source *source,
                         const struct node_limits *limits, const struct node_stream *stream,
@@ -515,20 +519,18 @@ struct node *node_parse(struct arena *arena, struct diagnostics *diag, const str
                         .limits = limits,
                         .stream = stream,
                         .problem = problem};
-    if (!yaml_parser_initialize(&rd.parser)) {
+    rd.events = events_begin(source, source->size > LONG);
+    if (!rd.events) {
         diag_failure(diag, "out-of-memory", "%s: out of memory", source->name);
         return NULL;
     }
-    yaml_parser_set_input_string(&rd.parser, (const unsigned char *)source->text, source->size);
-    yaml_parser_set_encoding(&rd.parser, YAML_UTF8_ENCODING);
 
-    /* The arena leaves by longjmp when it is full; the parser must be freed on that way as well. */
+    /* The arena leaves by longjmp when it is full; its events must end on that way as well. */
     jmp_buf full, *const outer = arena_catch(arena, &full);
     struct node *volatile root = NULL;
     const bool is_full = setjmp(full) != 0;
     if (!is_full) root = read_stream(&rd);
-    yaml_event_delete(&rd.event);
-    yaml_parser_delete(&rd.parser);
+    events_end(rd.events);
     arena_catch(arena, outer);
     if (is_full && outer) longjmp(*outer, 1);
     return root;

@@ -284,8 +284,8 @@ static void a_full_arena_leaves_by_its_jump(void **state) {
     struct arena arena = {.limit = 300000, .on_full = &full};
     struct diagnostics diag = {0};
     struct node_problem problem = {0};
-    char *text = calloc(100000, 1);
-    for (size_t i = 0; i + 4 < 100000; i += 4) memcpy(text + i, "- a\n", 4);
+    char *text = calloc(400000, 1); /* long enough for a thread */
+    for (size_t i = 0; i + 4 < 400000; i += 4) memcpy(text + i, "- a\n", 4);
     const struct source source = {"t", text, strlen(text)};
     const struct node_limits limits = {10, 1000000};
     if (setjmp(full) == 0) {
