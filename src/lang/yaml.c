@@ -487,7 +487,7 @@ static bool tag_directives_allowed(struct reader *rd) {
 }
 
 static struct node *read_stream(struct reader *rd) {
-    if (!tag_directives_allowed(rd) || !next_event(rd) /* stream start */ || !next_event(rd)) return NULL;
+    if (!next_event(rd) /* stream start */ || !next_event(rd)) return NULL;
     if (rd->event->kind == EVENT_STREAM_END && !report_empty(rd)) return NULL;
     if (!next_event(rd)) return NULL;
     struct node *root = read_node(rd);
@@ -519,6 +519,7 @@ struct node *node_parse(struct arena *arena, struct diagnostics *diag, const str
                         .limits = limits,
                         .stream = stream,
                         .problem = problem};
+    if (!tag_directives_allowed(&rd)) return NULL; /* before libyaml sees them */
     rd.events = events_begin(source, source->size > LONG);
     if (!rd.events) {
         diag_failure(diag, "out-of-memory", "%s: out of memory", source->name);
