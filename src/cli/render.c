@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/asked.h"
 #include "cli/clock.h"
 #include "cli/interrupt.h"
 #include "cli/load.h"
@@ -66,8 +67,11 @@ static struct monge_film *render_film(const struct option_value *option, const c
     struct progress progress;
     const struct monge_region *region = &picture->region;
     const unsigned errors = monge_diagnostics_errors(load->diag);
-    struct monge_job job = {
-        .threads = option[OPTION_THREADS].number[0], .cancel = interrupt_flag(), .diag = load->diag};
+    char *asked = asked_text(option, picture->defines, picture->define_count, picture->frame);
+    struct monge_job job = {.threads = option[OPTION_THREADS].number[0],
+                            .cancel = interrupt_flag(),
+                            .diag = load->diag,
+                            .options = asked};
     if (progress_wanted(wish, option[OPTION_QUIET].given)) {
         job.progress = progress_update;
         job.context = &progress;
@@ -75,6 +79,7 @@ static struct monge_film *render_film(const struct option_value *option, const c
     progress_begin(&progress, title);
     struct monge_film *film = monge_render(load->scene, &picture->settings, region, &job, &picture->stats);
     progress_end(&progress);
+    free(asked);
     if (film) return film;
     const bool wrong = monge_diagnostics_errors(load->diag) != errors;
     *status = wrong ? STATUS_NO : STATUS_TROUBLE;
