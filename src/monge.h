@@ -169,6 +169,14 @@ void monge_text_free(struct monge_text *text);
 bool monge_text_read(const char *path, const struct monge_limits *limits, struct monge_text *text,
                      struct monge_diagnostics *diag);
 
+/* What a text is by the keys at its top. */
+enum monge_text_kind {
+    MONGE_TEXT_SCENE, /* it has `scene`; or it is not YAML, so that what is wrong with it will be told */
+    MONGE_TEXT_DEFINITIONS, /* all of its keys may be in a file that scenes include */
+    MONGE_TEXT_OTHER,
+};
+enum monge_text_kind monge_text_kind(const struct monge_text *text, const struct monge_limits *limits);
+
 /* Writes a file, which appears complete under its name or stays as it was, with its permissions; symbolic
  * links are followed; "-" is standard output. False, a failure in diag, when it cannot be written. */
 bool monge_text_write(const char *path, const struct monge_text *text, struct monge_diagnostics *diag);

@@ -32,14 +32,6 @@ static size_t folder_length(const char *path) {
     return slash ? (size_t)(slash - path) + 1 : 0;
 }
 
-static char *scene_name(const char *scene) {
-    if (is_stream(scene)) return say_text("stdin");
-    const char *base = scene + folder_length(scene);
-    const char *dot = strrchr(base, '.');
-    const bool yaml = dot && dot > base && (strcmp(dot, ".yaml") == 0 || strcmp(dot, ".yml") == 0);
-    return say_text("%.*s", (int)(yaml ? (size_t)(dot - base) : strlen(base)), base);
-}
-
 static char *joined(char *text, const char *more) {
     char *longer = say_text("%s%s", text, more);
     free(text);
@@ -100,7 +92,7 @@ static char *better_pattern(const struct plan *plan) {
     const char *wanted = plan->wanted, *dot = strrchr(wanted, '.');
     const bool extended = dot && dot > wanted + folder_length(wanted);
     char *text = say_text("%.*s", (int)(extended ? (size_t)(dot - wanted) : strlen(wanted)), wanted);
-    if (plan->scene_count > 1 && !pattern_has(wanted, "name")) text = joined(text, "-{name}");
+    if (plan->scenes->count > 1 && !pattern_has(wanted, "name")) text = joined(text, "-{name}");
     for (size_t i = 0; i < plan->sweep->count; i++) {
         const struct axis *axis = &plan->sweep->axes[i];
         char *part = say_text("-{%s}", axis->name);
@@ -226,14 +218,9 @@ static bool check_files(struct plan *plan) {
 
 static bool check_streams(const struct plan *plan) {
     const char *stats = plan->stats;
-    size_t inputs = 0, pictures = 0;
-    for (size_t i = 0; i < plan->count; i++) {
-        inputs += i % plan->sweep->total == 0 && is_stream(plan->outputs[i].scene);
-        pictures += is_stream(plan->outputs[i].path);
-    }
-    if (inputs > 1)
-        say_usage(COMMAND_RENDER, "standard input can be only one scene");
-    else if (pictures > 1 || (pictures && many_frames(plan)))
+    size_t pictures = 0;
+    for (size_t i = 0; i < plan->count; i++) pictures += is_stream(plan->outputs[i].path);
+    if (pictures > 1 || (pictures && many_frames(plan)))
         say_usage(COMMAND_RENDER, "-o -: standard output can take only one picture");
     else if (pictures && stats && is_stream(stats))
         say_usage(COMMAND_RENDER, "--stats -: standard output takes the picture");
@@ -272,10 +259,11 @@ static bool check_writable(const char *path) {
     return writable;
 }
 
-/* Whether -o asks for folders: a FILE does not, so that a slip of the pen makes none. */
+/* Whether folders are made: a FILE of -o asks for none, so that a slip of the pen makes none. */
 static bool makes_folders(const struct plan *plan) {
-    return plan->wanted &&
-           (ends_in_slash(plan->wanted) || !pattern_is_plain(plan->wanted, plan->frames != NULL));
+    const char *wanted = plan->wanted;
+    return !wanted || ends_in_slash(wanted) || is_folder(wanted) ||
+           !pattern_is_plain(wanted, plan->frames != NULL);
 }
 
 static bool check_folder(const struct plan *plan, char *path) {
@@ -296,45 +284,46 @@ static bool check_folders(const struct plan *plan) {
 
 /* ---- The plan ---- */
 
-static bool make_output(struct plan *plan, const char *scene, size_t combination, struct output *output) {
-    *output = (struct output){.scene = scene,
-                              .name = scene_name(scene),
+static bool make_output(struct plan *plan, const struct scene_file *scene, size_t combination,
+                        struct output *output) {
+    *output = (struct output){.scene = scene->path,
+                              .name = scene->name,
                               .defines = calloc(plan->sweep->count + 1, sizeof *output->defines)};
     if (!output->defines) return false;
     sweep_combination(plan->sweep, combination, output->defines);
     char *with = sweep_describe(plan->sweep, output->defines);
-    output->title = say_text("%s%s%s", scene, *with ? " with " : "", with);
+    output->title = say_text("%s%s%s", scene->path, *with ? " with " : "", with);
     free(with);
     output->path = picture_path(plan, output, 0, 0);
     return true;
 }
 
-static bool make_outputs(struct plan *plan, char **scenes) {
-    bool good = (plan->outputs = calloc(plan->count, sizeof *plan->outputs)) != NULL;
+static bool make_outputs(struct plan *plan) {
+    bool good = (plan->outputs = calloc(plan->count + 1, sizeof *plan->outputs)) != NULL;
     for (size_t i = 0; good && i < plan->count; i++)
-        good = make_output(plan, scenes[i / plan->sweep->total], i % plan->sweep->total, &plan->outputs[i]);
+        good = make_output(plan, &plan->scenes->all[i / plan->sweep->total], i % plan->sweep->total,
+                           &plan->outputs[i]);
     if (!good) say_error("out of memory");
     return good;
 }
 
-bool plan_begin(struct plan *plan, const struct arguments *args, const struct sweep *sweep) {
+bool plan_begin(struct plan *plan, const struct arguments *args, const struct scenes *scenes,
+                const struct sweep *sweep) {
     const struct option_value *frames = &args->option[OPTION_FRAMES];
     *plan = (struct plan){
         .wanted = args->option[OPTION_OUTPUT].text,
         .stats = args->option[OPTION_STATS].text,
         .sweep = sweep,
         .frames = frames->given ? frames : NULL,
-        .scene_count = args->count,
-        .count = args->count * sweep->total,
+        .scenes = scenes,
+        .count = scenes->count * sweep->total,
     };
-    return check_pattern(plan) && (!plan->wanted || check_extension(plan->wanted)) &&
-           make_outputs(plan, args->operands) && check_streams(plan) && check_files(plan) &&
-           check_folders(plan);
+    return check_pattern(plan) && (!plan->wanted || check_extension(plan->wanted)) && make_outputs(plan) &&
+           check_streams(plan) && check_files(plan) && check_folders(plan);
 }
 
 void plan_free(struct plan *plan) {
     for (size_t i = 0; plan->outputs && i < plan->count; i++) {
-        free(plan->outputs[i].name);
         free(plan->outputs[i].defines);
         free(plan->outputs[i].title);
         free(plan->outputs[i].path);

@@ -229,7 +229,7 @@ static enum status render_output(struct work *work, const struct output *output)
 
 static enum status render_outputs(struct work *work) {
     const struct option_value *option = work->args.option;
-    enum status worst = STATUS_YES;
+    enum status worst = work->loader.scenes.status;
     size_t done = 0;
     for (size_t i = 0; i < work->plan.count; i++) {
         const enum status status = render_output(work, &work->plan.outputs[i]);
@@ -247,7 +247,8 @@ static enum status render_outputs(struct work *work) {
 
 static bool work_begin(struct work *work, const struct arguments *args) {
     *work = (struct work){.args = *args};
-    if (!loader_begin(&work->loader, args) || !plan_begin(&work->plan, args, &work->loader.sweep))
+    if (!loader_begin(&work->loader, args) ||
+        !plan_begin(&work->plan, args, &work->loader.scenes, &work->loader.sweep))
         return false;
     /* a document on stderr must be alone there: the notes are left out */
     if (work->loader.report.format != MONGE_FORMAT_TEXT) work->args.option[OPTION_QUIET].given = true;
