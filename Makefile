@@ -45,8 +45,12 @@ GRAMMAR := $(BUILD)/gen/grammar_tables $(BUILD)/gen/grammar_schema
 STORIES := $(BUILD)/gen/stories
 endif
 
+# Which program it is: a hash of all that it is made from.
+PROGRAM_SOURCES := $(sort $(wildcard src/*.[ch] src/*/*.[ch] grammar/*.yaml tools/grammar/*.[ch] tools/diagnostics.c)) scenes/presets.yaml
+IDENTITY := $(BUILD)/gen/program
+
 object = $(patsubst %.c,$(BUILD)/obj/%.o,$(1))
-OBJECTS := $(call object,$(filter-out src/cli/%,$(SOURCES))) $(patsubst $(BUILD)/%,$(BUILD)/obj/%.o,$(GRAMMAR) $(STORIES))
+OBJECTS := $(call object,$(filter-out src/cli/%,$(SOURCES))) $(patsubst $(BUILD)/%,$(BUILD)/obj/%.o,$(GRAMMAR) $(STORIES) $(IDENTITY))
 CLI_OBJECTS := $(call object,$(filter src/cli/%,$(SOURCES)))
 TOOL_OBJECTS := $(call object,$(wildcard src/base/*.c src/lang/yaml.c src/lang/spelling.c))
 
@@ -217,6 +221,12 @@ $(BUILD)/tools/diagnostics: $(call object,tools/diagnostics.c src/lang/file.c) $
 	@mkdir -p $(@D)
 	$(call say,link,$@)
 	$(QUIET)$(LINK) -o $@ $^ $(LIBS)
+
+$(BUILD)/gen/program.c: $(PROGRAM_SOURCES)
+	@mkdir -p $(@D)
+	$(call say,gen,$@)
+	$(QUIET){ printf '#include "base/program.h"\nconst char program_hash[] = "'; cat $^ | sha256sum | cut -c 1-32 | tr -d '\n'; \
+	    printf '";\n'; } > $@
 
 $(BUILD)/gen/stories.c: $(BUILD)/tools/diagnostics grammar/diagnostics.yaml
 	@mkdir -p $(@D)

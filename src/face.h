@@ -24,6 +24,8 @@ struct monge_scene {
     size_t memory_bytes;       /* for that */
     struct lang_memory memory; /* of the reading, where only the file itself depends on the frame */
     struct lang_result result; /* in `memory` */
+    struct hash texts_hash;    /* of all files that were read */
+    char *included;            /* owned: those that it includes, one a line */
     struct outline *outline;   /* NULL: not wanted */
     size_t built_bytes;        /* of the scene, without the hierarchy */
 };

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "lang/file.h"
+#include "lang/texts.h"
 #include "render/examine.h"
 #include "render/info.h"
 
@@ -108,9 +109,14 @@ static bool read_all(struct lang_input input, struct outline **outline, struct d
 
 static bool load_scene(struct load *load) {
     struct monge_scene *scene = load->scene;
-    return read_input(load) &&
-           read_all(scene->input, load->options.outline ? &scene->outline : NULL, load->diag, &scene->memory,
-                    &scene->body, &scene->scene, &scene->result);
+    if (!read_input(load) ||
+        !read_all(scene->input, load->options.outline ? &scene->outline : NULL, load->diag, &scene->memory,
+                  &scene->body, &scene->scene, &scene->result))
+        return false;
+    scene->texts_hash = texts_hash(&scene->result);
+    scene->included = texts_files(&scene->result);
+    if (!scene->included) diag_failure(load->diag, "out-of-memory", "%s: out of memory", load->name);
+    return scene->included != NULL;
 }
 
 void face_report_full(struct diagnostics *diag, const char *name, size_t memory_bytes) {
@@ -272,7 +278,16 @@ void monge_scene_free(struct monge_scene *scene) {
     arena_free(&scene->body);
     arena_free(&scene->texts);
     lang_memory_free(&scene->memory);
+    free(scene->included);
     free(scene);
+}
+
+bool monge_files_hash(const char *path, const char *files, const struct monge_limits *limits,
+                      struct monge_diagnostics *diag, char hash[MONGE_HASH_SIZE]) {
+    struct hash now;
+    const bool good = texts_hash_again(path, files, face_limits(limits).file_bytes, &diag->list, &now);
+    if (good) hash_text(&now, hash);
+    return good;
 }
 
 size_t monge_scene_primitives(const struct monge_scene *scene) { return scene->scene.primitives.count; }

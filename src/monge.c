@@ -2,16 +2,20 @@
 #include "monge.h"
 
 #include <stdlib.h>
+#include <string.h>
 #include <time.h>
 
 #include "base/diag_write.h"
 #include "base/json.h"
+#include "base/program.h"
 #include "face.h"
+#include "image/pixels.h"
 #include "image/png.h"
 #include "lang/stories.h"
 #include "render/render.h"
 
 const char *monge_version(void) { return MONGE_VERSION; }
+const char *monge_program(void) { return program_hash; }
 
 /* ---- Diagnostics ---- */
 
@@ -85,6 +89,14 @@ static struct hash fingerprint(const struct scene *scene, const struct monge_set
     return hash;
 }
 
+/* What its picture says of the scene and of how it was asked for. */
+static bool stamp_film(struct monge_film *film, const struct monge_scene *scene,
+                       const struct monge_job *job) {
+    film->files = strdup(scene->included);
+    film->options = strdup(job && job->options ? job->options : "");
+    return film->files && film->options;
+}
+
 struct monge_film *monge_render(struct monge_scene *scene, const struct monge_settings *settings,
                                 const struct monge_region *region, const struct monge_job *job,
                                 struct monge_stats *stats) {
@@ -102,7 +114,9 @@ struct monge_film *monge_render(struct monge_scene *scene, const struct monge_se
     struct monge_film *film = film_new(settings, region ? *region : whole);
     if (!film) return NULL;
     film->scene = fingerprint(&scene->scene, settings);
-    const bool done = render_film(&scene->scene, scene->accel, job ? job : &no_job, film, stats);
+    film->texts = scene->texts_hash;
+    const bool done = stamp_film(film, scene, job) &&
+                      render_film(&scene->scene, scene->accel, job ? job : &no_job, film, stats);
     stats->build_seconds = prepared_before ? 0.0 : built - begin;
     stats->render_seconds = seconds() - built;
     if (done) return film;
@@ -115,4 +129,15 @@ bool monge_film_write_png(const struct monge_film *film, const char *path, struc
     if (png_write_film(film, path, message, sizeof message)) return true;
     diag_failure(&diag->list, "cannot-write", "%s", message);
     return false;
+}
+
+bool monge_film_hash(const struct monge_film *film, char hash[MONGE_HASH_SIZE]) {
+    struct hash pixels;
+    const bool good = pixels_hash_film(film, &pixels);
+    if (good) hash_text(&pixels, hash);
+    return good;
+}
+
+void monge_film_scene_hash(const struct monge_film *film, char hash[MONGE_HASH_SIZE]) {
+    hash_text(&film->scene, hash);
 }

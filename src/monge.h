@@ -26,6 +26,11 @@
 
 const char *monge_version(void); /* "1.2.3", static */
 
+enum { MONGE_HASH_SIZE = 33 }; /* 32 hexadecimal digits and the final zero */
+
+/* A hash of the sources that the program was built from; static. Equal ones make equal pictures. */
+const char *monge_program(void);
+
 /* ---- The scene language ---- */
 
 /* The JSON Schema (draft-07) of scene files, by which editors complete and check them; static. */
@@ -130,6 +135,12 @@ unsigned monge_scene_frames(const struct monge_scene *scene);
 bool monge_scene_set_frame(struct monge_scene *scene, unsigned frame, struct monge_diagnostics *diag);
 
 void monge_scene_free(struct monge_scene *scene);
+
+/* The hash of the files that a scene is read from: the one in `path`, and `files`, those that it includes, relative to
+ * its folder, one a line. Equal to that of a picture (its text chunks monge:text and monge:files) where none has
+ * changed since. False, a failure in diag, where one cannot be read. limits may be NULL. */
+bool monge_files_hash(const char *path, const char *files, const struct monge_limits *limits,
+                      struct monge_diagnostics *diag, char hash[MONGE_HASH_SIZE]);
 
 /* How many primitives the scene has become. */
 size_t monge_scene_primitives(const struct monge_scene *scene);
@@ -240,6 +251,7 @@ struct monge_job {
                      uint64_t total); /* pixels; from any one thread at a time; may be NULL */
     void *context;
     const atomic_bool *cancel; /* set it to stop early; may be NULL */
+    const char *options; /* what is not as the scene has it, as text for the picture's file; may be NULL */
 };
 
 struct monge_stats {
@@ -266,8 +278,14 @@ struct monge_region monge_film_region(const struct monge_film *film);
  * >= 0, not clamped. Valid as long as the film. */
 const float *monge_film_pixels(const struct monge_film *film);
 
+/* The hash of the pixels that monge_film_write_png would write. False: no memory. */
+bool monge_film_hash(const struct monge_film *film, char hash[MONGE_HASH_SIZE]);
+
+/* The hash of the scene, as it was evaluated, and of the settings: of all that can change a pixel. */
+void monge_film_scene_hash(const struct monge_film *film, char hash[MONGE_HASH_SIZE]);
+
 /* Writes the film as PNG, with the bits and the encoding of the settings it was rendered with, and
- * its fingerprint in text chunks. path "-" is standard output. A regular file appears complete under
+ * what it was made from in text chunks (README.md has them). path "-" is standard output. A regular file appears complete under
  * its name or not at all. False when it cannot: diag says why, as a failure. */
 bool monge_film_write_png(const struct monge_film *film, const char *path, struct monge_diagnostics *diag);
 

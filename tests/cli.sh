@@ -107,6 +107,8 @@ device full 7
 exits 0 --version; out_has 'monge '; no_err
 cp out expected
 for form in -V version; do exits 0 $form; ok "$form is --version" cmp out expected; done
+exits 0 render -q one.yaml --size 9x8 --no-shadows --depth 2 -o asked.png
+ok 'a picture tells its options' grep -qa -e '--size 9x8 --no-shadows --depth 2' asked.png
 exits 2 version x; err_has 'version: expected nothing more'
 exits 0 --help; out_has 'usage: monge COMMAND'; out_has 'render SCENE...'; no_err
 exits 0 -h; out_has 'usage: monge COMMAND'

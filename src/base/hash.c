@@ -2,15 +2,29 @@
 
 #include <string.h>
 
-/* Offset basis and prime of the 128-bit FNV-1a: 2^88 + 2^8 + 0x3b. */
+#define FNV_PRIME ((unsigned __int128)1 << 88 | 0x13b)
+
+/* The offset basis of the 128-bit FNV-1a. */
 void hash_begin(struct hash *hash) { *hash = (struct hash){0x6c62272e07bb0142u, 0x62b821756295c58du}; }
 
 void hash_bytes(struct hash *hash, const void *bytes, size_t size) {
     const unsigned char *byte = bytes;
     unsigned __int128 sum = (unsigned __int128)hash->high << 64 | hash->low;
-    const unsigned __int128 prime = (unsigned __int128)1 << 88 | 0x13b;
-    for (size_t i = 0; i < size; i++) sum = (sum ^ byte[i]) * prime;
+    for (size_t i = 0; i < size; i++) sum = (sum ^ byte[i]) * FNV_PRIME;
     *hash = (struct hash){(uint64_t)(sum >> 64), (uint64_t)sum};
+}
+
+void hash_bulk(struct hash *hash, const void *bytes, size_t size) {
+    const unsigned char *byte = bytes;
+    unsigned __int128 sum = (unsigned __int128)hash->high << 64 | hash->low;
+    for (size_t i = 0; i + 8 <= size; i += 8) {
+        uint64_t word = 0;
+        for (int k = 7; k >= 0; k--) word = word << 8 | byte[i + (size_t)k];
+        sum = (sum ^ word) * FNV_PRIME;
+    }
+    *hash = (struct hash){(uint64_t)(sum >> 64), (uint64_t)sum};
+    hash_bytes(hash, byte + size / 8 * 8, size % 8);
+    hash_integer(hash, size);
 }
 
 void hash_integer(struct hash *hash, uint64_t value) {

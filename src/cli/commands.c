@@ -30,7 +30,7 @@
 #define LIMITS_TEXT                                                                                          \
     "--limit bounds what a scene may take, for files from strangers: file_bytes (of one file: 1G), "         \
     "memory_bytes (of a load: 8G), values (of one file: 100M), nesting (of lists and mappings: 100), "       \
-    "recursion (of templates: 100), steps (objects and turns of loops: 10M), objects (shapes: 20M), "       \
+    "recursion (of templates: 100), steps (objects and turns of loops: 10M), objects (shapes: 20M), "        \
     "pixels (of the picture: 268435456). k, M and G are powers of 1000, of bytes powers of 1024."
 
 /* The words of a choice stand in the order of the enum that they become. */
@@ -88,7 +88,7 @@ static enum status version_command(const struct arguments *args) {
         say_usage(COMMAND_VERSION, "version: expected nothing more, found `%s`", args->operands[0]);
         return STATUS_TROUBLE;
     }
-    printf("monge %s\n", monge_version());
+    printf("monge %s (sources %.12s)\n", monge_version(), monge_program());
     return STATUS_YES;
 }
 

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/asked.h"
 #include "cli/clock.h"
 #include "cli/interrupt.h"
 #include "cli/load.h"
@@ -64,7 +65,9 @@ static struct monge_film *render_film(const struct option_value *option, const c
                                       struct picture *picture) {
     const enum progress_wish wish = (enum progress_wish)option[OPTION_PROGRESS].choice;
     struct progress progress;
-    struct monge_job job = {.threads = option[OPTION_THREADS].number[0], .cancel = interrupt_flag()};
+    char *asked = asked_text(option, picture->defines, picture->define_count, picture->frame);
+    struct monge_job job = {
+        .threads = option[OPTION_THREADS].number[0], .cancel = interrupt_flag(), .options = asked};
     if (progress_wanted(wish, option[OPTION_QUIET].given)) {
         job.progress = progress_update;
         job.context = &progress;
@@ -72,6 +75,7 @@ static struct monge_film *render_film(const struct option_value *option, const c
     progress_begin(&progress, title);
     struct monge_film *film = monge_render(scene, &picture->settings, region, &job, &picture->stats);
     progress_end(&progress);
+    free(asked);
     if (!film && !interrupt_pending())
         say_error("no memory for a picture of %ux%u", region->width, region->height);
     return film;

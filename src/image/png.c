@@ -6,7 +6,9 @@
 #include <string.h>
 #include <zlib.h>
 
+#include "base/program.h"
 #include "image/encode.h"
+#include "image/pixels.h"
 #include "image/replace.h"
 
 /* One picture on its way to a stream. Everything that libpng's longjmp must not lose lives here. */
@@ -17,6 +19,7 @@ struct writer {
     uint8_t *row; /* encoded bytes of one row */
     char reason[128];
     struct encoder encoder;
+    struct hash pixels; /* of the rows so far */
 };
 
 static void on_error(png_structp png, png_const_charp text) {
@@ -33,18 +36,33 @@ static void on_write(png_structp png, png_bytep bytes, size_t size) {
 
 static void on_flush(png_structp png) { (void)png; }
 
+/* As it is where it is ASCII; else in the kind of chunk that is UTF-8. libpng copies both texts. */
 static void set_text(struct writer *w, char *key, char *value) {
-    const png_text text = {.compression = PNG_TEXT_COMPRESSION_NONE, .key = key, .text = value};
+    bool ascii = true;
+    for (const char *c = value; *c; c++) ascii &= (unsigned char)*c < 0x80;
+    const png_text text = {.compression = ascii ? PNG_TEXT_COMPRESSION_NONE : PNG_ITXT_COMPRESSION_NONE,
+                           .key = key,
+                           .text = value};
     png_set_text(w->png, w->info, &text, 1);
 }
 
+static void set_hash(struct writer *w, char *key, const struct hash *hash) {
+    char text[HASH_TEXT_SIZE];
+    hash_text(hash, text);
+    set_text(w, key, text);
+}
+
 static void set_texts(struct writer *w) {
-    const struct monge_settings *settings = &w->film->settings;
-    const struct monge_region r = w->film->region;
-    char software[] = "Monge " MONGE_VERSION, scene[HASH_TEXT_SIZE], region[80];
+    const struct monge_film *film = w->film;
+    const struct monge_settings *settings = &film->settings;
+    const struct monge_region r = film->region;
+    char software[] = "Monge " MONGE_VERSION, region[80];
     set_text(w, "Software", software);
-    hash_text(&w->film->scene, scene);
-    set_text(w, "monge:scene", scene);
+    set_text(w, "monge:program", (char *)program_hash);
+    set_hash(w, "monge:scene", &film->scene);
+    set_hash(w, "monge:text", &film->texts);
+    if (film->files && *film->files) set_text(w, "monge:files", film->files);
+    if (film->options && *film->options) set_text(w, "monge:options", film->options);
     if (r.width == settings->width && r.height == settings->height) return;
     snprintf(region, sizeof region, "%u,%u,%u,%u of %ux%u", r.x, r.y, r.width, r.height, settings->width,
              settings->height);
@@ -82,11 +100,16 @@ static bool write_stream(struct writer *w) {
     if (setjmp(png_jmpbuf(w->png))) return false;
     write_header(w);
     const struct monge_region region = w->film->region;
+    const struct monge_settings *settings = &w->film->settings;
+    const size_t channels = 3 * (size_t)region.width;
+    pixels_hash_begin(&w->pixels, region.width, region.height, settings->bits, settings->encoding);
     for (uint32_t y = 0; y < region.height; y++) {
-        encoder_bytes(&w->encoder, film_pixel(w->film, 0, y), 3 * (size_t)region.width, w->row);
+        encoder_bytes(&w->encoder, film_pixel(w->film, 0, y), channels, w->row);
+        hash_bulk(&w->pixels, w->row, channels * (settings->bits / 8));
         png_write_row(w->png, w->row);
     }
-    png_write_end(w->png, NULL);
+    set_hash(w, "monge:pixels", &w->pixels); /* behind the pixels: by now they are known */
+    png_write_end(w->png, w->info);
     return true;
 }
 

@@ -1,6 +1,7 @@
 /* Reads a scene: its files, its names, its objects one by one, then the rest. */
 #include "lang/lang.h"
 
+#include <string.h>
 #include <sys/stat.h>
 
 #include "lang/checker.h"
@@ -93,6 +94,24 @@ static struct object_list named_materials(struct checker *ck) {
     return list;
 }
 
+/* A path from the folder that another file is in, where it lies there. */
+static const char *path_below(const char *path, const char *file) {
+    const char *slash = strrchr(file, '/');
+    const size_t folder = slash ? (size_t)(slash - file) + 1 : 0;
+    return strncmp(path, file, folder) == 0 ? path + folder : path;
+}
+
+/* All files; the units have the newest first. */
+static void list_texts(struct checker *ck, struct lang_result *result) {
+    for (const struct unit *unit = ck->units; unit; unit = unit->next) result->text_count++;
+    struct lang_text *texts = arena_array(&ck->memory->kept, result->text_count, sizeof *texts);
+    uint32_t i = result->text_count;
+    for (const struct unit *unit = ck->units; unit; unit = unit->next)
+        texts[--i] = (struct lang_text){unit->includer ? path_below(unit->path, ck->input->path) : unit->path,
+                                        unit->source};
+    result->texts = texts;
+}
+
 /* What stays of a reading, for lang_read_frame. */
 struct reading {
     struct checker checker;
@@ -149,7 +168,9 @@ struct lang_result lang_read(struct lang_memory *memory, struct diagnostics *dia
     const unsigned frames = ck->animation ? (unsigned)object_number(ck->animation, KEY_ANIMATION_FRAMES) : 0;
     ck->arena = &memory->kept;
     reading->ready = *ck;
-    return (struct lang_result){file, named_materials(ck), ck->moved, frames, ck};
+    struct lang_result result = {file, named_materials(ck), ck->moved, frames, ck, NULL, 0};
+    list_texts(ck, &result);
+    return result;
 }
 
 void lang_read_frame(struct lang_result *result, struct diagnostics *diag, unsigned frame) {

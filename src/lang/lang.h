@@ -75,12 +75,21 @@ void lang_memory_free(struct lang_memory *memory);
 
 struct checker;
 
+/* A file that was read. */
+struct lang_text {
+    const char *
+        path; /* the scene's as it was given; of others, from there: relative to the scene's folder, or absolute */
+    const struct source *source;
+};
+
 struct lang_result {
     const struct object_value *file; /* NULL when nothing can be said of the text as a scene */
     struct object_list materials;    /* all that have names, by their `definition` */
     bool moves;                      /* an object depends on the frame */
     unsigned frames;                 /* of the animation; 0: there is none */
     struct checker *reading;         /* for lang_read_frame */
+    const struct lang_text *texts;   /* the scene first, then what it includes, in the order of reading */
+    uint32_t text_count;
 };
 
 /* Reads the scene, all its mistakes reported to `diag`; diag tells whether it was right. The objects go

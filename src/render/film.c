@@ -13,7 +13,10 @@ struct monge_film *film_new(const struct monge_settings *settings, struct monge_
 }
 
 void monge_film_free(struct monge_film *film) {
-    if (film) free(film->rgb);
+    if (!film) return;
+    free(film->rgb);
+    free(film->files);
+    free(film->options);
     free(film);
 }
 

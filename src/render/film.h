@@ -9,6 +9,8 @@ struct monge_film {
     struct monge_settings settings; /* of the render that filled it */
     struct monge_region region;     /* pixels of the whole picture */
     struct hash scene;              /* of the evaluated scene and the settings that change a pixel */
+    struct hash texts;              /* of the files that the scene was read from */
+    char *files, *options;          /* owned: for the text chunks of its picture; NULL: none */
     float *rgb;                     /* region.width * region.height * 3, row by row from the top left */
 };
 

@@ -5,10 +5,10 @@
 cd "$(dirname "$0")/../.." || exit 2
 seconds=${1:-60} folder=${2:-/tmp/monge-fuzz}
 mkdir -p "$folder/corpus" "$folder/seeds" || exit 2
-make BUILD="$folder/build" "$folder/build/gen/grammar_tables.c" "$folder/build/gen/grammar_tables.h" "$folder/build/gen/grammar_schema.c" "$folder/build/gen/stories.c" >/dev/null || exit 2
+make BUILD="$folder/build" "$folder/build/gen/grammar_tables.c" "$folder/build/gen/grammar_tables.h" "$folder/build/gen/grammar_schema.c" "$folder/build/gen/stories.c" "$folder/build/gen/program.c" >/dev/null || exit 2
 find tests/errors scenes -name '*.yaml' | while read -r scene; do cp "$scene" "$folder/seeds/$(echo "$scene" | tr / _)"; done
 
-sources="$(ls src/*.c src/[!c]*/*.c) $folder/build/gen/grammar_tables.c $folder/build/gen/grammar_schema.c $folder/build/gen/stories.c tests/fuzz/load.c"
+sources="$(ls src/*.c src/[!c]*/*.c) $folder/build/gen/grammar_tables.c $folder/build/gen/grammar_schema.c $folder/build/gen/stories.c $folder/build/gen/program.c tests/fuzz/load.c"
 flags="-std=c17 -g -O1 -D_GNU_SOURCE -DMONGE_VERSION=\"fuzz\" -ffp-contract=off -Isrc -I$folder/build/gen -fno-sanitize-recover=all"
 libs="$(pkg-config --libs yaml-0.1 libpng sleef) -lpthread -lm"
 if clang $flags -fsanitize=fuzzer,address,undefined -o "$folder/fuzz" $sources $libs 2>"$folder/log"; then

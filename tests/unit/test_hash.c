@@ -51,6 +51,21 @@ static void numbers_go_in_as_bytes_least_first(void **state) {
     assert_memory_equal(&hash, &bytes, sizeof hash);
 }
 
+/* 8 bytes as one number of 64 bits, the rest one by one, and the size. */
+static void many_bytes_go_in_as_words(void **state) {
+    (void)state;
+    struct hash bulk, want;
+    hash_begin(&bulk);
+    hash_bulk(&bulk, "\x08\x07\x06\x05\x04\x03\x02\x01xy", 10);
+    const unsigned __int128 basis = (unsigned __int128)0x6c62272e07bb0142u << 64 | 0x62b821756295c58du,
+                            prime = ((unsigned __int128)1 << 88) + 0x13b,
+                            sum = (basis ^ 0x0102030405060708u) * prime;
+    want = (struct hash){(uint64_t)(sum >> 64), (uint64_t)sum};
+    hash_bytes(&want, "xy", 2);
+    hash_integer(&want, 10);
+    assert_memory_equal(&bulk, &want, sizeof want);
+}
+
 static void both_zeros_are_one_value(void **state) {
     (void)state;
     struct hash plus, minus;
@@ -66,6 +81,7 @@ int main(void) {
     for (size_t i = 0; i < COUNT(vectors); i++)
         tests[i] = (struct CMUnitTest){vectors[i].name, check_vector, NULL, NULL, &vectors[i]};
     const struct CMUnitTest others[] = {cmocka_unit_test(numbers_go_in_as_bytes_least_first),
+                                        cmocka_unit_test(many_bytes_go_in_as_words),
                                         cmocka_unit_test(both_zeros_are_one_value)};
     return cmocka_run_group_tests_name("vectors", tests, NULL, NULL) +
            cmocka_run_group_tests_name("hash", others, NULL, NULL);

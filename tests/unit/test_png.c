@@ -138,7 +138,7 @@ static const char *picture_text(const struct picture *p, const char *key) {
 
 static void picture_free(struct picture *p) { png_destroy_read_struct(&p->png, &p->info, NULL); }
 
-/* The names of the chunks, in order, with repeated ones once: "IHDR sRGB tEXt IDAT IEND". */
+/* The names of the chunks, in order, with repeated ones once: "IHDR sRGB tEXt IDAT tEXt IEND". */
 static void list_chunks(const char *path, char *names, size_t size) {
     uint8_t bytes[8192];
     const size_t end = read_bytes(path, bytes, sizeof bytes);
@@ -159,10 +159,10 @@ static struct format {
     unsigned bits;
     const char *chunks;
 } formats[] = {
-    {"sRGB, 8 bits", MONGE_ENCODING_SRGB, 8, "IHDR sRGB tEXt IDAT IEND"},
-    {"sRGB, 16 bits", MONGE_ENCODING_SRGB, 16, "IHDR sRGB tEXt IDAT IEND"},
-    {"linear, 8 bits", MONGE_ENCODING_LINEAR, 8, "IHDR gAMA tEXt IDAT IEND"},
-    {"linear, 16 bits", MONGE_ENCODING_LINEAR, 16, "IHDR gAMA tEXt IDAT IEND"},
+    {"sRGB, 8 bits", MONGE_ENCODING_SRGB, 8, "IHDR sRGB tEXt IDAT tEXt IEND"},
+    {"sRGB, 16 bits", MONGE_ENCODING_SRGB, 16, "IHDR sRGB tEXt IDAT tEXt IEND"},
+    {"linear, 8 bits", MONGE_ENCODING_LINEAR, 8, "IHDR gAMA tEXt IDAT tEXt IEND"},
+    {"linear, 16 bits", MONGE_ENCODING_LINEAR, 16, "IHDR gAMA tEXt IDAT tEXt IEND"},
 };
 
 static unsigned channel_of(const struct picture *p, unsigned bits, size_t i) {
