@@ -174,7 +174,7 @@ install: all ## to PREFIX (under DESTDIR): program, library, manual page, comple
 	$(BUILD)/monge help --completion zsh > $(ZSH_COMPLETION)
 	$(BUILD)/monge help --completion fish > $(FISH_COMPLETION)
 	install -m 644 $(DOCS) $(SHARE)/doc/monge
-	install -m 644 grammar/scene.schema.json $(SHARE)/monge/scene.schema.json
+	install -m 644 grammar/scene.schema.json grammar/golden.schema.json $(SHARE)/monge
 
 uninstall: ## remove what install put there
 	rm -f $(BIN)/monge $(LIB)/libmonge.a $(LIB)/pkgconfig/monge.pc $(INCLUDE)/monge.h $(SHARE)/man/man1/monge.1 \

@@ -142,6 +142,9 @@ void monge_scene_free(struct monge_scene *scene);
 bool monge_files_hash(const char *path, const char *files, const struct monge_limits *limits,
                       struct monge_diagnostics *diag, char hash[MONGE_HASH_SIZE]);
 
+/* The same of a scene that is loaded, as it was when it was read. */
+void monge_scene_text_hash(const struct monge_scene *scene, char hash[MONGE_HASH_SIZE]);
+
 /* How many primitives the scene has become. */
 size_t monge_scene_primitives(const struct monge_scene *scene);
 
@@ -198,6 +201,27 @@ bool monge_text_write(const char *path, const struct monge_text *text, struct mo
 bool monge_format(const char *name, const struct monge_text *text, const struct monge_limits *limits,
                   struct monge_text *formatted, struct monge_diagnostics *diag);
 
+/* ---- Documents: YAML or JSON as it stands, without a meaning ---- */
+
+struct monge_document;
+struct monge_value; /* of a document, and as long as it */
+
+/* Reads a file of one document. NULL when it cannot be read or is no YAML: diag says why. limits may be NULL. */
+struct monge_document *monge_document_read(const char *path, const struct monge_limits *limits,
+                                           struct monge_diagnostics *diag);
+void monge_document_free(struct monge_document *document);
+const struct monge_value *monge_document_root(const struct monge_document *document);
+
+/* The value of a key; NULL: there is none, or `mapping` is NULL or no mapping. */
+const struct monge_value *monge_value_get(const struct monge_value *mapping, const char *key);
+
+/* The items of a list: NULL at its end, of an empty one, and of what is NULL or no list. */
+const struct monge_value *monge_value_first(const struct monge_value *list);
+const struct monge_value *monge_value_next(const struct monge_value *item);
+
+/* What a scalar says; NULL of any other value, of NULL and of null. */
+const char *monge_value_text(const struct monge_value *value);
+
 /* ---- Settings: what an author writes in the file and a user may override ---- */
 
 enum monge_shading {
@@ -228,6 +252,45 @@ struct monge_settings monge_scene_settings(const struct monge_scene *scene); /* 
 
 /* NULL if every setting is within its range, else which is not, for people; static. */
 const char *monge_settings_check(const struct monge_settings *settings);
+
+/* ---- Golden pictures: how scenes are tested ---- */
+
+enum monge_golden_kind { MONGE_GOLDEN_PNG, MONGE_GOLDEN_HASH, MONGE_GOLDEN_BOTH };
+
+/* How far a picture may be from its golden one: all that is stated must hold. */
+struct monge_tolerance {
+    double max;    /* of a channel, 0 .. 1; 0 where only `pixels` is stated; NaN: neither is */
+    double pixels; /* that may be farther than max; or, where percent, so many of a hundred */
+    bool percent;
+    double mae, rmse, flip; /* at most; NaN: not stated */
+    double psnr, ssim;      /* at least; NaN: not stated */
+    const char *reason;
+};
+
+struct monge_golden_rule {
+    const char *const *scenes; /* names or patterns of names, up to a NULL; at least one */
+    const char *options;       /* as monge render takes them; "": none */
+    bool aov;
+    const struct monge_tolerance *tolerance; /* NULL: what the scene says */
+    unsigned line;                           /* of the rule, from 1 */
+};
+
+/* The file golden.yaml. grammar/reference.md has its keys. */
+struct monge_goldens {
+    const char *root; /* as it is written, from the folder of the file; NULL: not given */
+    enum monge_golden_kind kind;
+    const struct monge_golden_rule *rules;
+    size_t count;
+};
+
+/* NULL when it is wrong or cannot be read: diag says why, monge_diagnostics_failures which of the two. The caller
+ * frees it. limits may be NULL. */
+struct monge_goldens *monge_goldens_read(const char *path, const struct monge_limits *limits,
+                                         struct monge_diagnostics *diag);
+void monge_goldens_free(struct monge_goldens *goldens);
+
+/* What the scene says itself; NULL: nothing. As long as the scene. */
+const struct monge_tolerance *monge_scene_tolerance(const struct monge_scene *scene);
 
 /* ---- Rendering ---- */
 
