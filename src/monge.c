@@ -7,6 +7,7 @@
 
 #include "base/diag_write.h"
 #include "base/json.h"
+#include "base/parallel.h"
 #include "base/program.h"
 #include "face.h"
 #include "image/pixels.h"
@@ -89,6 +90,14 @@ static struct hash fingerprint(const struct scene *scene, const struct monge_set
     return hash;
 }
 
+unsigned monge_processors(void) { return parallel_processors(); }
+
+void monge_scene_hash(const struct monge_scene *scene, const struct monge_settings *settings,
+                      char hash[MONGE_HASH_SIZE]) {
+    const struct hash made = fingerprint(&scene->scene, settings);
+    hash_text(&made, hash);
+}
+
 /* What its picture says of the scene and of how it was asked for. */
 static bool stamp_film(struct monge_film *film, const struct monge_scene *scene,
                        const struct monge_job *job) {
@@ -120,6 +129,7 @@ struct monge_film *monge_render(struct monge_scene *scene, const struct monge_se
     stats->build_seconds = prepared_before ? 0.0 : built - begin;
     stats->render_seconds = seconds() - built;
     if (done) return film;
+    if (job && job->tiles) job->tiles->stopped(job->tiles->context);
     monge_film_free(film);
     return NULL;
 }

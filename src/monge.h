@@ -307,6 +307,21 @@ enum monge_ray {
     MONGE_RAY_KINDS
 };
 
+unsigned monge_processors(void); /* that this process may run on; at least 1 */
+
+/* For pictures that take long: keeps the tiles that have been rendered, to give them back when the same picture is
+ * rendered again. known and done are called from any threads at once. `tile` is in pixels of the whole picture; its pixels are
+ * at `rgb`, three floats each, `stride` floats from row to row, as monge_film_pixels has them. */
+struct monge_tiles {
+    void *context;
+    /* Puts the pixels of a tile to `rgb` and returns true, or leaves it to be rendered. */
+    bool (*known)(void *context, const struct monge_region *tile, float *rgb, size_t stride);
+    /* A tile has been rendered. rgb stays as it is until monge_render returns. */
+    void (*done)(void *context, const struct monge_region *tile, const float *rgb, size_t stride);
+    /* The rendering ends early: this is the last look at what was done. */
+    void (*stopped)(void *context);
+};
+
 /* How to render: nothing in it changes a pixel. */
 struct monge_job {
     unsigned threads; /* 0: one for each processor */
@@ -314,6 +329,7 @@ struct monge_job {
                      uint64_t total); /* pixels; from any one thread at a time; may be NULL */
     void *context;
     const atomic_bool *cancel; /* set it to stop early; may be NULL */
+    const struct monge_tiles *tiles; /* may be NULL */
     const char *options; /* what is not as the scene has it, as text for the picture's file; may be NULL */
 };
 
@@ -333,6 +349,11 @@ struct monge_film;
 struct monge_film *monge_render(struct monge_scene *scene, const struct monge_settings *settings,
                                 const struct monge_region *region, const struct monge_job *job,
                                 struct monge_stats *stats);
+
+/* The hash of the scene, as it was evaluated, and of the settings: of all that can change a pixel. Equal to that of
+ * the film that is rendered of them, monge_film_scene_hash. */
+void monge_scene_hash(const struct monge_scene *scene, const struct monge_settings *settings,
+                      char hash[MONGE_HASH_SIZE]);
 
 void monge_film_free(struct monge_film *film);
 struct monge_region monge_film_region(const struct monge_film *film);

@@ -207,23 +207,26 @@ static bool make_room(struct plan *plan, size_t more) {
 }
 
 static bool check_files(struct plan *plan) {
-    if (!make_room(plan, plan->count * 2 + 1)) return false;
+    if (!make_room(plan, plan->count * 2 + 2)) return false;
     for (size_t i = 0; i < plan->count; i += plan->sweep->total)
         add_claim(plan, plan->outputs[i].scene, plan->outputs[i].scene, false);
     for (size_t i = 0; i < plan->count; i++)
         add_claim(plan, plan->outputs[i].path, plan->outputs[i].title, true);
     if (plan->stats) add_claim(plan, plan->stats, "--stats", true);
+    if (plan->log) add_claim(plan, plan->log, "--log", true);
     return check_claims(plan);
 }
 
 static bool check_streams(const struct plan *plan) {
-    const char *stats = plan->stats;
+    const bool stats = plan->stats && is_stream(plan->stats), log = plan->log && is_stream(plan->log);
     size_t pictures = 0;
     for (size_t i = 0; i < plan->count; i++) pictures += is_stream(plan->outputs[i].path);
     if (pictures > 1 || (pictures && many_frames(plan)))
         say_usage(COMMAND_RENDER, "-o -: standard output can take only one picture");
-    else if (pictures && stats && is_stream(stats))
-        say_usage(COMMAND_RENDER, "--stats -: standard output takes the picture");
+    else if (pictures && (stats || log))
+        say_usage(COMMAND_RENDER, "%s -: standard output takes the picture", stats ? "--stats" : "--log");
+    else if (stats && log)
+        say_usage(COMMAND_RENDER, "--stats - and --log -: standard output can take only one of them");
     else if (pictures && isatty(STDOUT_FILENO))
         say_usage(COMMAND_RENDER,
                   "a picture is not for a terminal: give -o FILE, or redirect standard output");
@@ -266,20 +269,17 @@ static bool makes_folders(const struct plan *plan) {
            !pattern_is_plain(wanted, plan->frames != NULL);
 }
 
-static bool check_folder(const struct plan *plan, char *path) {
-    return (!makes_folders(plan) || make_folder(path)) && check_writable(path);
+bool plan_reach(const struct plan *plan, const char *path) {
+    char *copy = say_text("%s", path);
+    const bool good = (!makes_folders(plan) || make_folder(copy)) && check_writable(path);
+    free(copy);
+    return good;
 }
 
-/* Whether the folder is known before the frame is. */
-static bool has_known_folder(const struct output *output) {
-    const char *open = strstr(output->path, "{frame}");
-    return !open || !strchr(open, '/');
-}
-
-static bool check_folders(const struct plan *plan) {
+bool plan_is_serial(const struct plan *plan) {
     for (size_t i = 0; i < plan->count; i++)
-        if (has_known_folder(&plan->outputs[i]) && !check_folder(plan, plan->outputs[i].path)) return false;
-    return !plan->stats || check_writable(plan->stats);
+        if (is_stream(plan->outputs[i].path) || is_special(plan->outputs[i].path)) return true;
+    return false;
 }
 
 /* ---- The plan ---- */
@@ -313,13 +313,15 @@ bool plan_begin(struct plan *plan, const struct arguments *args, const struct sc
     *plan = (struct plan){
         .wanted = args->option[OPTION_OUTPUT].text,
         .stats = args->option[OPTION_STATS].text,
+        .log = args->option[OPTION_LOG].text,
+        .lock = PTHREAD_MUTEX_INITIALIZER,
         .sweep = sweep,
         .frames = frames->given ? frames : NULL,
         .scenes = scenes,
         .count = scenes->count * sweep->total,
     };
     return check_pattern(plan) && (!plan->wanted || check_extension(plan->wanted)) && make_outputs(plan) &&
-           check_streams(plan) && check_files(plan) && check_folders(plan);
+           check_streams(plan) && check_files(plan) && (!plan->stats || check_writable(plan->stats));
 }
 
 void plan_free(struct plan *plan) {
@@ -334,12 +336,12 @@ void plan_free(struct plan *plan) {
 }
 
 static bool check_paths(struct plan *plan, const struct output *output, char **paths, size_t count) {
-    if (!make_room(plan, count)) return false;
-    for (size_t i = 0; i < count; i++) add_claim(plan, paths[i], output->title, true);
-    if (!check_claims(plan)) return false;
-    for (size_t i = 0; i < count; i++)
-        if (!check_folder(plan, paths[i])) return false;
-    return true;
+    pthread_mutex_lock(&plan->lock);
+    const bool room = make_room(plan, count);
+    for (size_t i = 0; room && i < count; i++) add_claim(plan, paths[i], output->title, true);
+    const bool good = room && check_claims(plan);
+    pthread_mutex_unlock(&plan->lock);
+    return good;
 }
 
 char **plan_frames(struct plan *plan, const struct output *output, const unsigned *frames, size_t count,

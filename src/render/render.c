@@ -106,18 +106,44 @@ static bool is_cancelled(const struct rendering *rd) {
     return rd->job->cancel && atomic_load(rd->job->cancel);
 }
 
-static void render_tile(struct rendering *rd, uint32_t tile, uint64_t rays[MONGE_RAY_KINDS]) {
-    const struct monge_region *region = &rd->film->region;
-    const uint32_t x0 = tile % rd->tiles_across * TILE_SIZE, y0 = tile / rd->tiles_across * TILE_SIZE;
-    const uint32_t x1 = x0 + TILE_SIZE < region->width ? x0 + TILE_SIZE : region->width;
-    const uint32_t y1 = y0 + TILE_SIZE < region->height ? y0 + TILE_SIZE : region->height;
-    for (uint32_t y = y0; y < y1; y++)
-        for (uint32_t x = x0; x < x1; x++) {
-            if (is_cancelled(rd)) return;
+/* Pixels of the film, as are x and y of render_pixel. */
+static struct monge_region tile_region(const struct rendering *rd, uint32_t tile) {
+    const struct monge_region *film = &rd->film->region;
+    const uint32_t x = tile % rd->tiles_across * TILE_SIZE, y = tile / rd->tiles_across * TILE_SIZE;
+    const uint32_t width = film->width - x, height = film->height - y;
+    return (struct monge_region){x, y, width < TILE_SIZE ? width : TILE_SIZE,
+                                 height < TILE_SIZE ? height : TILE_SIZE};
+}
+
+/* False: cancelled. */
+static bool render_pixels(const struct rendering *rd, const struct monge_region *tile,
+                          uint64_t rays[MONGE_RAY_KINDS]) {
+    for (uint32_t y = tile->y; y < tile->y + tile->height; y++)
+        for (uint32_t x = tile->x; x < tile->x + tile->width; x++) {
+            if (is_cancelled(rd)) return false;
             render_pixel(rd, x, y, rays);
         }
-    const uint64_t pixels = (uint64_t)(x1 - x0) * (y1 - y0);
-    report(rd, atomic_fetch_add(&rd->pixels_done, pixels) + pixels);
+    return true;
+}
+
+/* Where somebody keeps the tiles: renders it only where it is not known. */
+static bool fill_tile(const struct rendering *rd, const struct monge_region *tile,
+                      uint64_t rays[MONGE_RAY_KINDS]) {
+    const struct monge_tiles *tiles = rd->job->tiles;
+    const struct monge_region *film = &rd->film->region;
+    const struct monge_region in_picture = {film->x + tile->x, film->y + tile->y, tile->width, tile->height};
+    const size_t stride = 3 * (size_t)film->width;
+    float *rgb = film_pixel(rd->film, tile->x, tile->y);
+    if (tiles && tiles->known(tiles->context, &in_picture, rgb, stride)) return true;
+    if (!render_pixels(rd, tile, rays)) return false;
+    if (tiles) tiles->done(tiles->context, &in_picture, rgb, stride);
+    return true;
+}
+
+static void render_tile(struct rendering *rd, uint32_t number, uint64_t rays[MONGE_RAY_KINDS]) {
+    const struct monge_region tile = tile_region(rd, number);
+    const uint64_t pixels = (uint64_t)tile.width * tile.height;
+    if (fill_tile(rd, &tile, rays)) report(rd, atomic_fetch_add(&rd->pixels_done, pixels) + pixels);
 }
 
 static void render_tiles(void *context, unsigned thread) {
