@@ -71,21 +71,24 @@ struct settings_file {
     struct lang_memory memory;
 };
 
-static bool read_rule(struct arena *arena, struct diagnostics *diag, const struct object_value *object,
-                      struct monge_golden_rule *rule) {
+static void read_rule(struct arena *arena, struct diagnostics *diag, const struct object_value *object,
+                      enum monge_golden_kind kind, struct monge_golden_rule *rule) {
     const struct object_value *tolerance = object_object(object, KEY_GOLDEN_RULE_TOLERANCE);
     const char *options = object_text(object, KEY_GOLDEN_RULE_OPTIONS);
     *rule = (struct monge_golden_rule){.scenes = object_texts(arena, object, KEY_GOLDEN_RULE_SCENES),
                                        .options = options ? options : "",
+                                       .kind = kind,
                                        .aov = object_choice(object, KEY_GOLDEN_RULE_AOV),
                                        .line = object->span.line + 1};
+    if (object_has(object, KEY_GOLDEN_RULE_KIND))
+        rule->kind = (enum monge_golden_kind)object_choice(object, KEY_GOLDEN_RULE_KIND);
     if (object_has(object, KEY_GOLDEN_RULE_SCENES) && !rule->scenes)
         diag_error(diag, object_span(object, KEY_GOLDEN_RULE_SCENES), "not-a-text",
                    "`scenes`: expected the name of a scene, or a list of names");
-    if (!tolerance) return rule->scenes;
+    if (!tolerance) return;
     struct monge_tolerance *read = arena_alloc(arena, sizeof *read);
     rule->tolerance = read;
-    return face_tolerance(diag, tolerance, read) && rule->scenes;
+    face_tolerance(diag, tolerance, read);
 }
 
 static void read_rules(struct settings_file *file, struct diagnostics *diag,
@@ -93,12 +96,10 @@ static void read_rules(struct settings_file *file, struct diagnostics *diag,
     const struct object_list list = object_list(object, KEY_GOLDENS_RULES);
     struct arena *arena = &file->memory.kept;
     struct monge_golden_rule *rules = arena_array(arena, list.count + 1, sizeof *rules);
-    for (uint32_t i = 0; i < list.count; i++) read_rule(arena, diag, list.items[i], &rules[i]);
-    file->goldens =
-        (struct monge_goldens){.root = object_text(object, KEY_GOLDENS_ROOT),
-                               .kind = (enum monge_golden_kind)object_choice(object, KEY_GOLDENS_KIND),
-                               .rules = rules,
-                               .count = list.count};
+    const enum monge_golden_kind kind = (enum monge_golden_kind)object_choice(object, KEY_GOLDENS_KIND);
+    for (uint32_t i = 0; i < list.count; i++) read_rule(arena, diag, list.items[i], kind, &rules[i]);
+    file->goldens = (struct monge_goldens){
+        .root = object_text(object, KEY_GOLDENS_ROOT), .kind = kind, .rules = rules, .count = list.count};
 }
 
 static bool read_settings(struct settings_file *file, const char *path, const struct monge_limits *limits,

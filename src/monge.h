@@ -270,6 +270,7 @@ struct monge_tolerance {
 struct monge_golden_rule {
     const char *const *scenes; /* names or patterns of names, up to a NULL; at least one */
     const char *options;       /* as monge render takes them; "": none */
+    enum monge_golden_kind kind;
     bool aov;
     const struct monge_tolerance *tolerance; /* NULL: what the scene says */
     unsigned line;                           /* of the rule, from 1 */
@@ -278,7 +279,7 @@ struct monge_golden_rule {
 /* The file golden.yaml. grammar/reference.md has its keys. */
 struct monge_goldens {
     const char *root; /* as it is written, from the folder of the file; NULL: not given */
-    enum monge_golden_kind kind;
+    enum monge_golden_kind kind; /* where no rule matches */
     const struct monge_golden_rule *rules;
     size_t count;
 };

@@ -40,30 +40,8 @@ static char *joined(char *text, const char *more) {
 
 static bool ends_in_slash(const char *path) { return *path && path[strlen(path) - 1] == '/'; }
 
-static int digits_of(unsigned number) {
-    int digits = 1;
-    while (number /= 10) digits++;
-    return digits;
-}
-
-/* What a picture is called where the user has no name for it: NAME-a=1-0001.png. */
-static char *usual_name(const struct plan *plan, const struct pattern_values *values) {
-    char *text = say_text("%s", values->name);
-    for (size_t i = 0; i < plan->sweep->count; i++) {
-        if (plan->sweep->axes[i].count == 1) continue;
-        char *safe = pattern_safe(values->defines[i].value),
-             *part = say_text("-%s=%s", values->defines[i].name, safe);
-        text = joined(text, part);
-        free(part);
-        free(safe);
-    }
-    if (plan->frames) {
-        char *part = values->frame ? say_text("-%0*u", values->digits < 4 ? 4 : values->digits, values->frame)
-                                   : say_text("-{frame}");
-        text = joined(text, part);
-        free(part);
-    }
-    return joined(text, ".png");
+static char *usual_file(const struct plan *plan, const struct pattern_values *values) {
+    return joined(pattern_usual(plan->sweep, values), ".png");
 }
 
 /* The path of a picture; of `frame` 0, as far as it is known without the frame. */
@@ -74,12 +52,12 @@ static char *picture_path(const struct plan *plan, const struct output *output, 
                                           .define_count = plan->sweep->count,
                                           .frames = plan->frames != NULL,
                                           .frame = frame,
-                                          .digits = digits_of(last)};
-    if (!plan->wanted) return is_stream(output->scene) ? say_text("-") : usual_name(plan, &values);
+                                          .digits = pattern_digits(last)};
+    if (!plan->wanted) return is_stream(output->scene) ? say_text("-") : usual_file(plan, &values);
     char *path = pattern_expand(plan->wanted, &values);
     const bool slash = ends_in_slash(path);
     if (!slash && !is_folder(path)) return path;
-    char *name = usual_name(plan, &values);
+    char *name = usual_file(plan, &values);
     path = joined(joined(path, slash ? "" : "/"), name);
     free(name);
     return path;

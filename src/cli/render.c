@@ -56,29 +56,6 @@ static bool is_unchanged(struct unit *unit) {
 
 /* ---- The frames of a scene ---- */
 
-/* The frames that --frames asks for, of an animation of `total`; without it the first alone. NULL, with the reason
- * told, where they are not there. To be freed. */
-static unsigned *choose_frames(const struct option_value *option, const char *scene, unsigned total,
-                               size_t *count) {
-    const unsigned first = option->given ? option->number[0] : 1,
-                   step = option->given ? option->number[2] : 1;
-    const unsigned last = !option->given ? 1 : option->number[1] ? option->number[1] : total;
-    if (option->given && total == 0) {
-        say_error("--frames %s: %s has no animation; `animation: {frames: 48}` makes one", option->text,
-                  scene);
-        return NULL;
-    }
-    if (option->given && (first > total || last > total)) {
-        say_error("--frames %s: %s has %u frame%s", option->text, scene, total, total == 1 ? "" : "s");
-        return NULL;
-    }
-    *count = (last - first) / step + 1;
-    unsigned *frames = calloc(*count, sizeof *frames);
-    for (size_t i = 0; frames && i < *count; i++) frames[i] = first + (unsigned)i * step;
-    if (!frames) say_error("out of memory");
-    return frames;
-}
-
 /* Into the last picture; the scene stands at frame *at, which moves. */
 static enum status render_frame(struct unit *unit, struct load *load, unsigned frame, unsigned *at,
                                 double begun) {
@@ -114,7 +91,7 @@ static enum status render_load(struct unit *unit, struct load *load, double begu
     struct work *work = unit->work;
     size_t count = 0;
     const unsigned total = monge_scene_frames(load->scene);
-    unsigned *frames = choose_frames(&work->args.option[OPTION_FRAMES], unit->output->scene, total, &count);
+    unsigned *frames = asked_frames(&work->args.option[OPTION_FRAMES], unit->output->scene, total, &count);
     char **paths = frames ? plan_frames(&work->plan, unit->output, frames, count, total) : NULL;
     const enum status status =
         paths ? render_frames(unit, load, frames, paths, count, begun) : fail_output(unit, STATUS_TROUBLE);

@@ -11,45 +11,17 @@
 #include "cli/say.h"
 #include "cli/stats.h"
 
-/* ---- What the options change ---- */
-
-static void override_settings(const struct option_value *option, struct monge_settings *settings) {
-    if (option[OPTION_SIZE].given) {
-        settings->width = option[OPTION_SIZE].number[0];
-        settings->height = option[OPTION_SIZE].number[1];
-    }
-    if (option[OPTION_SAMPLES].given) settings->samples = option[OPTION_SAMPLES].number[0];
-    if (option[OPTION_DEPTH].given) settings->depth = option[OPTION_DEPTH].number[0];
-    if (option[OPTION_BITS].given) settings->bits = option[OPTION_BITS].choice == 0 ? 8 : 16;
-    if (option[OPTION_SHADOW].given) settings->shadow = option[OPTION_SHADOW].fraction;
-    if (option[OPTION_NO_SHADOWS].given) settings->shadow = 1.0;
-    if (option[OPTION_SHADING].given) settings->shading = (enum monge_shading)option[OPTION_SHADING].choice;
-    if (option[OPTION_ENCODING].given)
-        settings->encoding = (enum monge_encoding)option[OPTION_ENCODING].choice;
-}
-
-/* The region that is asked for, or the whole picture. False, with the reason told, when it is not inside. */
-static bool choose_region(const struct option_value *option, const char *scene,
-                          const struct monge_settings *settings, struct monge_region *region) {
-    *region = (struct monge_region){0, 0, settings->width, settings->height};
-    if (!option->given) return true;
-    const uint32_t *n = option->number;
-    *region = (struct monge_region){n[0], n[1], n[2], n[3]};
-    if ((uint64_t)n[0] + n[2] <= settings->width && (uint64_t)n[1] + n[3] <= settings->height) return true;
-    say_error("--region %s does not lie within the picture of %s, which is %ux%u", option->text, scene,
-              settings->width, settings->height);
-    return false;
-}
+/* ---- What is rendered ---- */
 
 static enum status choose_settings(const struct unit *unit, const struct load *load,
                                    struct picture *picture) {
     const struct option_value *option = unit->work->args.option;
     const char *scene = unit->output->scene;
     picture->settings = monge_scene_settings(load->scene);
-    override_settings(option, &picture->settings);
+    asked_settings(option, &picture->settings);
     const char *wrong = monge_settings_check(&picture->settings);
     if (wrong) say_error("%s: %s", scene, wrong);
-    if (wrong || !choose_region(&option[OPTION_REGION], scene, &picture->settings, &picture->region))
+    if (wrong || !asked_region(&option[OPTION_REGION], scene, &picture->settings, &picture->region))
         return STATUS_TROUBLE;
     if (load_allows(&unit->work->loader, scene, &picture->settings)) return STATUS_YES;
     return option[OPTION_SIZE].given ? STATUS_TROUBLE : STATUS_NO;

@@ -47,7 +47,7 @@ static struct monge_goldens *read_goldens(const char *text, const char *code, co
 static void all_of_a_file(void **state) {
     (void)state;
     struct monge_goldens *g = read_goldens("root: ../s\nkind: both\nrules:\n"
-                                           "  - {scenes: a, options: --size 3x3, aov: true}\n"
+                                           "  - {scenes: a, options: --size 3x3, aov: true, kind: hash}\n"
                                            "  - scenes: [b*, c]\n"
                                            "    tolerance: {pixels: 0.5%, flip: 1/4, reason: because}\n"
                                            "  - {scenes: d, tolerance: {pixels: 12, max: 0.1, reason: r}}\n",
@@ -59,6 +59,8 @@ static void all_of_a_file(void **state) {
     assert_null(g->rules[0].scenes[1]);
     assert_string_equal(g->rules[0].options, "--size 3x3");
     assert_true(g->rules[0].aov);
+    assert_int_equal(g->rules[0].kind, MONGE_GOLDEN_HASH);
+    assert_int_equal(g->rules[1].kind, MONGE_GOLDEN_BOTH);
     assert_null(g->rules[0].tolerance);
     assert_int_equal(g->rules[0].line, 4);
     assert_string_equal(g->rules[1].scenes[1], "c");
