@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "cli/accept.h"
 #include "cli/check.h"
 #include "cli/explain.h"
 #include "cli/fmt.h"
@@ -14,12 +15,15 @@
 #include "cli/say.h"
 #include "cli/schema.h"
 #include "cli/suggest.h"
+#include "cli/test.h"
 #include "monge.h"
 
 #define IN_NONE    (1u << COMMAND_NONE)
 #define IN_RENDER  (1u << COMMAND_RENDER)
 #define IN_CHECK   (1u << COMMAND_CHECK)
 #define IN_INFO    (1u << COMMAND_INFO)
+#define IN_TEST    (1u << COMMAND_TEST)
+#define IN_ACCEPT  (1u << COMMAND_ACCEPT)
 #define IN_FMT     (1u << COMMAND_FMT)
 #define IN_EXPLAIN (1u << COMMAND_EXPLAIN)
 #define IN_IMPORT  (1u << COMMAND_IMPORT)
@@ -59,9 +63,9 @@ const struct option_row OPTION_TABLE[OPTIONS] = {
     [OPTION_BITS] = {"bits", 0, VALUE_CHOICE, IN_RENDER, "8|16", 0, 0, "bits a channel in the file"},
     [OPTION_ENCODING] = {"encoding", 0, VALUE_CHOICE, IN_RENDER, "srgb|linear", 0, 0,
                          "how colours are encoded in the file"},
-    [OPTION_THREADS] = {"threads", 0, VALUE_WHOLE, IN_RENDER, "N", 1, 1024,
+    [OPTION_THREADS] = {"threads", 0, VALUE_WHOLE, IN_RENDER | IN_TEST, "N", 1, 1024,
                         "threads to render a picture with; all processors by default"},
-    [OPTION_JOBS] = {"jobs", 'j', VALUE_WHOLE, IN_RENDER, "N", 1, 256,
+    [OPTION_JOBS] = {"jobs", 'j', VALUE_WHOLE, IN_RENDER | IN_TEST, "N", 1, 256,
                      "scenes to render at once; as many as processors by default"},
     [OPTION_SKIP_UNCHANGED] = {"skip-unchanged", 0, VALUE_NONE, IN_RENDER, NULL, 0, 0,
                                "leave pictures alone that program, options and files would make again"},
@@ -79,15 +83,35 @@ const struct option_row OPTION_TABLE[OPTIONS] = {
                          "show a progress bar; auto: where standard error is a terminal; json: for programs"},
     [OPTION_FORMAT] = {"format", 0, VALUE_CHOICE, IN_RENDER | IN_CHECK, "text|json|sarif", 0, 0,
                        "how to report what is wrong: for people, or as one document for programs"},
-    [OPTION_LIMIT] = {"limit", 0, VALUE_PAIR, IN_RENDER | IN_CHECK | IN_INFO, "NAME=VALUE", 0, 0,
-                      "what a scene may take, see above; with k, M or G; repeatable"},
-    [OPTION_UNTRUSTED] = {"untrusted", 0, VALUE_NONE, IN_RENDER | IN_CHECK | IN_INFO, NULL, 0, 0,
+    [OPTION_LIMIT] = {"limit", 0, VALUE_PAIR, IN_RENDER | IN_CHECK | IN_INFO | IN_TEST | IN_ACCEPT,
+                      "NAME=VALUE", 0, 0, "what a scene may take, see above; with k, M or G; repeatable"},
+    [OPTION_UNTRUSTED] = {"untrusted", 0, VALUE_NONE, IN_RENDER | IN_CHECK | IN_INFO | IN_TEST, NULL, 0, 0,
                           "the scene may include files of its own folder alone"},
     [OPTION_JSON] = {"json", 0, VALUE_NONE, IN_INFO, NULL, 0, 0, "as JSON, one object a scene"},
+    [OPTION_GOLDEN] = {"golden", 0, VALUE_FILE, IN_TEST | IN_ACCEPT, "DIR", 0, 0,
+                       "the folder of the goldens, with their golden.yaml and golden.lock; must be given"},
+    [OPTION_TEST_OUTPUT] = {"output", 'o', VALUE_FILE, IN_TEST | IN_ACCEPT, "DIR", 0, 0,
+                            "the folder of the last run; monge-test by default"},
+    [OPTION_GOLDEN_KIND] =
+        {"golden-kind", 0, VALUE_CHOICE, IN_TEST, "png|hash|both", 0, 0,
+         "how goldens are kept, whatever golden.yaml says: pictures, lines of golden.lock, or both"},
+    [OPTION_CHANGED] =
+        {"changed", 0, VALUE_NONE, IN_TEST, NULL, 0, 0,
+         "render only scenes whose text, options or program are not those of the golden, or of a run in "
+         "which they were the same"},
+    [OPTION_UPDATE_ONLY_FAILED] =
+        {"update-only-failed", 0, VALUE_NONE, IN_TEST, NULL, 0, 0,
+         "make the new pictures of what has failed the goldens, and touch no other golden"},
+    [OPTION_OLD] = {"old", 0, VALUE_FILE, IN_TEST, "PROGRAM", 0, 0,
+                    "the monge that made the goldens, to have a picture of those that are hashes"},
+    [OPTION_TEST_JSON] = {"json", 0, VALUE_FILE, IN_TEST, "FILE|-", 0, 0, "write the results as JSON"},
+    [OPTION_JUNIT] = {"junit", 0, VALUE_FILE, IN_TEST, "FILE|-", 0, 0, "write the results as JUnit's XML"},
+    [OPTION_TAP] = {"tap", 0, VALUE_NONE, IN_TEST, NULL, 0, 0, "tell the results as TAP, version 13"},
+    [OPTION_PRUNE] = {"prune", 0, VALUE_NONE, IN_ACCEPT, NULL, 0, 0, "remove goldens whose scenes are gone"},
     [OPTION_CHECK_ONLY] = {"check", 0, VALUE_NONE, IN_FMT, NULL, 0, 0,
                            "write nothing; list what is not formatted, exit status 1 if any"},
-    [OPTION_QUIET] = {"quiet", 'q', VALUE_NONE, IN_RENDER | IN_CHECK | IN_FMT, NULL, 0, 0,
-                      "report nothing but what is wrong"},
+    [OPTION_QUIET] = {"quiet", 'q', VALUE_NONE, IN_RENDER | IN_CHECK | IN_FMT | IN_TEST | IN_ACCEPT, NULL, 0,
+                      0, "report nothing but what is wrong"},
     [OPTION_MAN] = {"man", 0, VALUE_NONE, IN_HELP, NULL, 0, 0, "print the manual page, as roff"},
     [OPTION_COMPLETION] = {"completion", 0, VALUE_CHOICE, IN_HELP, "bash|zsh|fish", 0, 0,
                            "print the completion script of a shell"},
@@ -106,7 +130,8 @@ static enum status version_command(const struct arguments *args) {
 
 const char *const STATUS_DOC[] = {
     [STATUS_YES] = "all is well",
-    [STATUS_NO] = "a scene is wrong, or not formatted (fmt --check); the others have still been dealt with",
+    [STATUS_NO] = "a scene is wrong, not formatted (fmt --check) or not the same as its golden (test); the "
+                  "others have still been dealt with",
     [STATUS_TROUBLE] = "trouble: wrong usage, a file that cannot be read or written, no memory",
 };
 
@@ -197,6 +222,58 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                          {"monge info --json king.yaml | jq .camera", "the camera that it is framed by"}},
             .needs_operand = true,
             .run = info_command,
+        },
+    [COMMAND_TEST] =
+        {
+            .name = "test",
+            .operands = "[SCENE...]",
+            .doc = "compare scenes with golden pictures",
+            .text =
+                {"Renders each scene and compares its picture with the golden of its name in the folder of "
+                 "--golden: exactly, "
+                 "unless the scene or DIR/golden.yaml states a tolerance with its reason. Tells what has "
+                 "become of each: "
+                 "same; changed; new, without a golden yet; missing, a golden that ought to be there; "
+                 "orphan, a golden "
+                 "whose scene is gone; broken, a scene that gives no picture.",
+                 "A golden is a picture, DIR/NAME.png, or a line with its hash in DIR/golden.lock, or both. "
+                 "DIR/golden.yaml may have rules: options of render for some scenes, tolerances, kinds of "
+                 "goldens; and "
+                 "`root`, the folder of the scenes, which names count from. With it scenes need not be "
+                 "given.",
+                 "The new pictures of what has failed, and results.json, are in the folder of the run, for "
+                 "`monge accept` "
+                 "to take. Orphans are looked for where there is a root, or where all operands are folders, "
+                 "patterns or "
+                 "lists.",
+                 "Exit status 1 where anything is not the same. grammar/testing.md is the page about it.",
+                 LIMITS_TEXT},
+            .examples = {{"monge test scenes/ --golden goldens/", "all scenes of a folder"},
+                         {"monge test scenes/ --golden goldens/ --update-only-failed",
+                          "for the first goldens, or new ones"},
+                         {"monge test --golden goldens/ --changed -q",
+                          "before a commit, with `root` in golden.yaml"},
+                         {"monge test --golden goldens/ --junit junit.xml --json -",
+                          "for servers and programs"}},
+            .run = test_command,
+        },
+    [COMMAND_ACCEPT] =
+        {
+            .name = "accept",
+            .operands = "[GLOB...]",
+            .doc = "make new pictures of the last test the goldens",
+            .text = {"Takes the new pictures of the last `monge test` with this folder of goldens, all or "
+                     "those whose names "
+                     "match a GLOB. One is left as it is where its scene, what that includes, its options or "
+                     "the program "
+                     "have changed since the run; a golden that did not fail is never touched.",
+                     "With --prune, goldens whose scenes were gone in that run are removed. Exit status 1 "
+                     "where something "
+                     "that was asked for is left as it is."},
+            .examples = {{"monge accept --golden goldens/", "all of them"},
+                         {"monge accept 'gallery/*' --golden goldens/ --prune",
+                          "some, and away with orphans"}},
+            .run = accept_command,
         },
     [COMMAND_EXPLAIN] =
         {
