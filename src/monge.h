@@ -401,6 +401,10 @@ const char *monge_picture_text(const struct monge_picture *picture, const char *
 /* Decodes the pixels, where that has not been done. False: diag says why, as a failure. Not from two threads at once. */
 bool monge_picture_decode(struct monge_picture *picture, struct monge_diagnostics *diag);
 
+/* The hash of its pixels, as monge_film_hash has it and the text chunk monge:pixels: equal where the file is as it was
+ * written. Decodes them. False when the file is damaged: diag says why; or is of another kind than is written here. */
+bool monge_picture_hash(struct monge_picture *picture, struct monge_diagnostics *diag, char hash[MONGE_HASH_SIZE]);
+
 /* A row of a picture that has been decoded: width * channels numbers of bits / 8 bytes, the high byte first. */
 const uint8_t *monge_picture_row(const struct monge_picture *picture, uint32_t y);
 

@@ -229,7 +229,7 @@ exits 2 render one.yaml --bits 12; err_has '--bits: expected 8 or 16'
 exits 2 render one.yaml --encoding gamma; err_has '--encoding: expected srgb or linear'
 exits 2 render one.yaml --depth 65; err_has '--depth: expected a whole number from 1 to 64'
 exits 2 render one.yaml --threads 0; err_has '--threads: expected a whole number from 1'
-exits 2 render one.yaml --progress yes; err_has '--progress: expected auto, always or never'
+exits 2 render one.yaml --progress yes; err_has '--progress: expected auto, always, never or json'
 exits 2 render one.yaml --shadow 0.5 --no-shadows; err_has '--shadow and --no-shadows'
 missing one.png
 exits 2 render one.yaml "${small[@]}" --region 10,0,7,1; err_has '--region 10,0,7,1'; err_has '16x12'; missing one.png
@@ -393,7 +393,7 @@ ok "standard input with a sweep" [ $status -eq 0 ]; ok "its first" cmp s1.png p/
 exits 0 render "${small[@]}" -q params.yaml -D a=1,2 -D b=1 --stats s.json
 ok "the statistics have the parameters" grep -qF '"params": {"a": "2", "b": "1"}' s.json
 exits 0 render --size 640x480 --samples 16 --threads 1 params.yaml -D a=1,2 --progress always -o 'p{a}.png'
-err_has 'params  picture 2 of 2  ['
+err_has '1 of 2 pictures  ['
 exits 1 render "${small[@]}" params.yaml -D a=1,-1,2; err_has '2 rendered, 1 failed'
 cd ..
 
@@ -661,7 +661,7 @@ assert rays["camera"] == 16 * 12 * good["samples"]
 assert rays["total"] == sum(rays[k] for k in ("camera", "shadow", "reflection", "refraction"))
 built = json.load(open("many.json"))["pictures"][0]
 assert built["primitives"] == 300 and built["seconds"]["build"] > 0
-assert bad == {"scene": "wrong.yaml", "output": "deep/wrong.png", "error": True}
+assert bad == {"scene": "wrong.yaml", "output": "deep/wrong.png", "status": "failed", "error": True}
 assert json.load(open("odd.json"))["pictures"][0]["scene"] == 'od"d\\\ufffd\n.yaml'
 PYTHON
 fi
