@@ -5,6 +5,7 @@
 
 #include "cli/accept.h"
 #include "cli/check.h"
+#include "cli/diff.h"
 #include "cli/explain.h"
 #include "cli/fmt.h"
 #include "cli/help.h"
@@ -25,6 +26,7 @@
 #define IN_TEST    (1u << COMMAND_TEST)
 #define IN_ACCEPT  (1u << COMMAND_ACCEPT)
 #define IN_FMT     (1u << COMMAND_FMT)
+#define IN_DIFF    (1u << COMMAND_DIFF)
 #define IN_EXPLAIN (1u << COMMAND_EXPLAIN)
 #define IN_IMPORT  (1u << COMMAND_IMPORT)
 #define IN_SCHEMA  (1u << COMMAND_SCHEMA)
@@ -63,8 +65,8 @@ const struct option_row OPTION_TABLE[OPTIONS] = {
     [OPTION_BITS] = {"bits", 0, VALUE_CHOICE, IN_RENDER, "8|16", 0, 0, "bits a channel in the file"},
     [OPTION_ENCODING] = {"encoding", 0, VALUE_CHOICE, IN_RENDER, "srgb|linear", 0, 0,
                          "how colours are encoded in the file"},
-    [OPTION_THREADS] = {"threads", 0, VALUE_WHOLE, IN_RENDER | IN_TEST, "N", 1, 1024,
-                        "threads to render a picture with; all processors by default"},
+    [OPTION_THREADS] = {"threads", 0, VALUE_WHOLE, IN_RENDER | IN_DIFF | IN_TEST, "N", 1, 1024,
+                        "threads for each picture; all processors by default"},
     [OPTION_JOBS] = {"jobs", 'j', VALUE_WHOLE, IN_RENDER | IN_TEST, "N", 1, 256,
                      "scenes to render at once; as many as processors by default"},
     [OPTION_SKIP_UNCHANGED] = {"skip-unchanged", 0, VALUE_NONE, IN_RENDER, NULL, 0, 0,
@@ -83,6 +85,20 @@ const struct option_row OPTION_TABLE[OPTIONS] = {
                          "show a progress bar; auto: where standard error is a terminal; json: for programs"},
     [OPTION_FORMAT] = {"format", 0, VALUE_CHOICE, IN_RENDER | IN_CHECK, "text|json|sarif", 0, 0,
                        "how to report what is wrong: for people, or as one document for programs"},
+    [OPTION_METRIC] = {"metric", 0, VALUE_CHOICES, IN_DIFF, "exact|max|mae|rmse|psnr|ssim|flip", 0, 0,
+                       "what to measure; several with commas between; repeatable"},
+    [OPTION_MAX_DELTA] = {"max-delta", 0, VALUE_FRACTION, IN_DIFF, "F", 0, 1,
+                          "by how much channels may differ, or what is measured may be"},
+    [OPTION_MAX_PIXELS] = {"max-pixels", 0, VALUE_AMOUNT, IN_DIFF, "N|P%", 0, 0,
+                           "how many pixels may differ, by more than --max-delta where it is given"},
+    [OPTION_IGNORE] = {"ignore", 0, VALUE_AREA, IN_DIFF, "X,Y,W,H|MASK", 1, INT32_MAX,
+                       "leave out these pixels, or those that a PNG is not black in; repeatable"},
+    [OPTION_MASK] = {"mask", 0, VALUE_FILE, IN_DIFF, "MASK", 0, 0, "the same as --ignore MASK"},
+    [OPTION_PPD] = {"ppd", 0, VALUE_FRACTION, IN_DIFF, "F", 1, 1000,
+                    "pixels per degree that FLIP's eye sees; 67 by default"},
+    [OPTION_HEAT_MAP] = {"out", 'o', VALUE_FILE, IN_DIFF, "FILE", 0, 0,
+                         "write a picture of where they differ; - is standard output"},
+    [OPTION_DIFF_JSON] = {"json", 0, VALUE_NONE, IN_DIFF, NULL, 0, 0, "as one JSON object"},
     [OPTION_LIMIT] = {"limit", 0, VALUE_PAIR, IN_RENDER | IN_CHECK | IN_INFO | IN_TEST | IN_ACCEPT,
                       "NAME=VALUE", 0, 0, "what a scene may take, see above; with k, M or G; repeatable"},
     [OPTION_UNTRUSTED] = {"untrusted", 0, VALUE_NONE, IN_RENDER | IN_CHECK | IN_INFO | IN_TEST, NULL, 0, 0,
@@ -110,8 +126,8 @@ const struct option_row OPTION_TABLE[OPTIONS] = {
     [OPTION_PRUNE] = {"prune", 0, VALUE_NONE, IN_ACCEPT, NULL, 0, 0, "remove goldens whose scenes are gone"},
     [OPTION_CHECK_ONLY] = {"check", 0, VALUE_NONE, IN_FMT, NULL, 0, 0,
                            "write nothing; list what is not formatted, exit status 1 if any"},
-    [OPTION_QUIET] = {"quiet", 'q', VALUE_NONE, IN_RENDER | IN_CHECK | IN_FMT | IN_TEST | IN_ACCEPT, NULL, 0,
-                      0, "report nothing but what is wrong"},
+    [OPTION_QUIET] = {"quiet", 'q', VALUE_NONE, IN_RENDER | IN_CHECK | IN_FMT | IN_DIFF | IN_TEST | IN_ACCEPT,
+                      NULL, 0, 0, "report nothing but what is wrong"},
     [OPTION_MAN] = {"man", 0, VALUE_NONE, IN_HELP, NULL, 0, 0, "print the manual page, as roff"},
     [OPTION_COMPLETION] = {"completion", 0, VALUE_CHOICE, IN_HELP, "bash|zsh|fish", 0, 0,
                            "print the completion script of a shell"},
@@ -130,8 +146,9 @@ static enum status version_command(const struct arguments *args) {
 
 const char *const STATUS_DOC[] = {
     [STATUS_YES] = "all is well",
-    [STATUS_NO] = "a scene is wrong, not formatted (fmt --check) or not the same as its golden (test); the "
-                  "others have still been dealt with",
+    [STATUS_NO] =
+        "a scene is wrong, not formatted (fmt --check) or not the same as its golden (test); the others "
+        "have still been dealt with; or pictures differ (diff)",
     [STATUS_TROUBLE] = "trouble: wrong usage, a file that cannot be read or written, no memory",
 };
 
@@ -177,7 +194,7 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                           "three pictures"},
                          {"monge render orbit.yaml --frames all -o orbit/", "orbit/orbit-0001.png and so on"},
                          {"generate | monge render - | display", "from a program to a program"}},
-            .needs_operand = true,
+            .operand = "scene",
             .run = render_command,
         },
     [COMMAND_CHECK] =
@@ -200,7 +217,7 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
             .examples = {{"monge check --quiet scenes/*.yaml", "a step of a build: silent where all is well"},
                          {"monge check --format sarif scenes/*.yaml > monge.sarif",
                           "for what shows SARIF beside the code"}},
-            .needs_operand = true,
+            .operand = "scene",
             .run = check_command,
         },
     [COMMAND_INFO] =
@@ -220,7 +237,7 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                  "With --json: one object for each scene, with the same. The scene - is standard input."},
             .examples = {{"monge info king.yaml", "what king.yaml consists of"},
                          {"monge info --json king.yaml | jq .camera", "the camera that it is framed by"}},
-            .needs_operand = true,
+            .operand = "scene",
             .run = info_command,
         },
     [COMMAND_TEST] =
@@ -301,7 +318,7 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                      "- is standard input."},
             .examples = {{"monge import cover.yml -o cover.yaml", "writes cover.yaml"},
                          {"monge import cover.yml | monge render - -o cover.png", "straight to a picture"}},
-            .needs_operand = true,
+            .operand = "scene",
             .run = import_command,
         },
     [COMMAND_FMT] =
@@ -320,8 +337,63 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                          {"monge fmt --check scenes/*.yaml",
                           "a step of a build: 1 where something is not formatted"},
                          {"monge fmt - < king.yaml | diff king.yaml -", "what it would change"}},
-            .needs_operand = true,
+            .operand = "scene",
             .run = fmt_command,
+        },
+    [COMMAND_DIFF] =
+        {
+            .name = "diff",
+            .operands = "A.png B.png",
+            .doc = "tell whether two pictures are the same, and how they differ",
+            .text =
+                {"Two pictures are the same when they have the same size, bits a channel, colour space and "
+                 "pixels. Text, compression, and whether there is a palette do not count; grey is equal red, "
+                 "green and blue, a picture without alpha is opaque, and one that names no colour space is "
+                 "sRGB. Any PNG will do. Prints a line about what differs; exit status 0 where they are the "
+                 "same, 1 where they are not, 2 where one cannot be read.",
+                 "With --max-delta pixels differ where a channel does by more than that, on a scale from 0 "
+                 "to 1; "
+                 "with --max-pixels that many, or that part, may; with both, that many by more than that. "
+                 "Bits a "
+                 "channel may then differ.",
+                 "--metric measures: exact (the part of the pixels that differ), max (the largest difference "
+                 "of a "
+                 "channel), mae and rmse (the mean of the differences, the root of the mean of their "
+                 "squares), "
+                 "psnr (in decibels), ssim (structural similarity of luma, 1 for equal ones; Wang et al. "
+                 "2004) "
+                 "and flip (what is seen when they alternate, from 0 to 1; Andersson et al. 2020, --ppd "
+                 "pixels "
+                 "per degree; their order matters little). Where it names none of exact and max, "
+                 "--max-delta is a limit for what it names instead: mae, rmse, flip, 1 - ssim, the rmse of "
+                 "psnr.",
+                 "--ignore leaves out a rectangle, or what is neither black nor transparent in a PNG of the "
+                 "same "
+                 "size.",
+                 "--out writes a heat map: the first picture in dim grey, and what differs in colours from "
+                 "violet "
+                 "by orange to pale yellow, the root of the largest difference of a channel, or of FLIP's "
+                 "error with "
+                 "--metric flip.",
+                 "--json prints an object: same (as the exit status has it), why (size, color space, bits, "
+                 "pixels "
+                 "or null), a and b (file, width, height, bits, channels, colorSpace), pixels (compared), "
+                 "different, "
+                 "beyond (by more than --max-delta), bounds and largest (where; null where nothing differs), "
+                 "and each "
+                 "metric by its name. Without --metric these are exact and max. A metric is null where the "
+                 "pixels "
+                 "cannot be compared; psnr, which is then infinite, also where all are the same."},
+            .examples = {{"monge diff golden.png new.png", "exit status 0 where they are the same"},
+                         {"monge diff a.png b.png --max-delta 0.01 --max-pixels 0.1%",
+                          "one pixel in a thousand may differ by more than 0.01"},
+                         {"monge diff a.png b.png --metric flip --max-delta 0.02 --out heat.png",
+                          "whether a viewer could tell, and where"},
+                         {"monge diff a.png b.png --metric ssim,psnr --json | jq .ssim", "for programs"},
+                         {"monge diff a.png b.png --ignore 0,0,120,20 --ignore mask.png",
+                          "but for these pixels"}},
+            .operand = "picture",
+            .run = diff_command,
         },
     [COMMAND_SCHEMA] =
         {
@@ -407,8 +479,8 @@ static enum status run(const struct arguments *args) {
         help_print(stdout, args->command);
         return STATUS_YES;
     }
-    if (args->count == 0 && row->needs_operand) {
-        say_usage(args->command, "%s: no scene given", row->name);
+    if (args->count == 0 && row->operand) {
+        say_usage(args->command, "%s: no %s given", row->name, row->operand);
         return STATUS_TROUBLE;
     }
     return row->run(args);

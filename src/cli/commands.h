@@ -8,7 +8,7 @@
 #include <stdint.h>
 
 /* As diff(1) has them; of several, the highest counts. */
-enum status { STATUS_YES, STATUS_NO /* a scene is wrong */, STATUS_TROUBLE /* usage, files, system */ };
+enum status { STATUS_YES, STATUS_NO /* a scene is wrong, pictures differ */, STATUS_TROUBLE /* usage, files, system */ };
 
 enum command_id {
     COMMAND_NONE, /* monge itself */
@@ -18,6 +18,7 @@ enum command_id {
     COMMAND_TEST,
     COMMAND_ACCEPT,
     COMMAND_FMT,
+    COMMAND_DIFF,
     COMMAND_EXPLAIN,
     COMMAND_IMPORT,
     COMMAND_SCHEMA,
@@ -50,6 +51,14 @@ enum option_id {
     OPTION_LOG,
     OPTION_PROGRESS,
     OPTION_FORMAT,
+    OPTION_METRIC,
+    OPTION_MAX_DELTA,
+    OPTION_MAX_PIXELS,
+    OPTION_IGNORE,
+    OPTION_MASK,
+    OPTION_PPD,
+    OPTION_HEAT_MAP,
+    OPTION_DIFF_JSON, /* the same word, but of one comparison */
     OPTION_LIMIT,
     OPTION_UNTRUSTED,
     OPTION_JSON,
@@ -80,6 +89,9 @@ enum value_kind {
     VALUE_SIZE,     /* WxH, each low .. high */
     VALUE_REGION,   /* X,Y,W,H: X and Y from 0, W and H low .. high */
     VALUE_CHOICE,   /* one of the words of `value` */
+    VALUE_CHOICES,  /* some of them, with commas between; may be given many times */
+    VALUE_AMOUNT,   /* a whole number, or 0 .. 100 and % */
+    VALUE_AREA,     /* as VALUE_REGION, or a file; may be given many times */
     VALUE_FRAMES,   /* N, A-B, A- or all, with :STEP behind it; each low .. high */
     VALUE_PAIR,     /* NAME=VALUE; may be given many times */
 };
@@ -107,7 +119,7 @@ struct command_row {
     const char *doc;            /* no capital, no full stop */
     const char *text[8];        /* paragraphs, up to a NULL */
     struct example examples[8]; /* up to a NULL */
-    bool needs_operand;
+    const char *operand; /* "scene"; NULL where it needs none */
     enum status (*run)(const struct arguments *args);
 };
 extern const struct command_row COMMAND_TABLE[COMMANDS];

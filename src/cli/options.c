@@ -81,6 +81,43 @@ static bool read_choice(const char *choices, const char *text, unsigned *choice)
     return false;
 }
 
+/* Words with commas between; their bits are added to *choices. */
+static bool read_choices(const char *choices, const char *text, unsigned *bits) {
+    for (;; text++) {
+        char word[32];
+        unsigned choice;
+        const size_t length = strcspn(text, ",");
+        if (length >= sizeof word) return false;
+        memcpy(word, text, length);
+        word[length] = '\0';
+        if (!read_choice(choices, word, &choice)) return false;
+        *bits |= 1u << choice;
+        text += length;
+        if (!*text) return true;
+    }
+}
+
+static bool read_amount(const char *text, struct option_value *value) {
+    char number[32];
+    const size_t length = strlen(text);
+    value->percent = length > 0 && text[length - 1] == '%';
+    if (length >= sizeof number) return false;
+    memcpy(number, text, length + 1);
+    if (!value->percent)
+        return number[strspn(number, "0123456789")] == '\0' && read_fraction(number, 0, 1e18, &value->fraction);
+    number[length - 1] = '\0';
+    return read_fraction(number, 0, 100, &value->fraction);
+}
+
+bool options_area(const struct option_pair *pair, uint32_t number[4]) {
+    return read_region(&OPTION_TABLE[pair->option], pair->text, number);
+}
+
+/* What is of digits and commas alone is meant to be a rectangle. */
+static bool read_area(const struct option_row *row, const char *text, uint32_t number[4]) {
+    return text[strspn(text, "0123456789,-. ")] ? true : read_region(row, text, number);
+}
+
 static bool read_value(const struct option_row *row, const char *text, struct option_value *value) {
     value->text = text;
     switch (row->kind) {
@@ -94,6 +131,9 @@ static bool read_value(const struct option_row *row, const char *text, struct op
     case VALUE_SIZE: return read_size(row, text, value->number);
     case VALUE_REGION: return read_region(row, text, value->number);
     case VALUE_CHOICE: return read_choice(row->value, text, &value->choice);
+    case VALUE_CHOICES: return read_choices(row->value, text, &value->choices);
+    case VALUE_AMOUNT: return read_amount(text, value);
+    case VALUE_AREA: return read_area(row, text, value->number);
     case VALUE_FRAMES: return read_frames(row, text, value->number);
     case VALUE_PAIR: return read_pair(text);
     }
@@ -121,7 +161,10 @@ static void describe_value(const struct option_row *row, char *text, size_t size
     case VALUE_FRACTION: snprintf(text, size, "a number from %u to %u", row->low, row->high); break;
     case VALUE_SIZE: snprintf(text, size, "WxH like 640x480, each from %u to %u", row->low, row->high); break;
     case VALUE_REGION: snprintf(text, size, "X,Y,W,H like 0,0,320,240, W and H from %u", row->low); break;
-    case VALUE_CHOICE: describe_choice(row->value, text, size); break;
+    case VALUE_CHOICE:
+    case VALUE_CHOICES: describe_choice(row->value, text, size); break;
+    case VALUE_AMOUNT: snprintf(text, size, "a whole number, or 0 to 100 and %%"); break;
+    case VALUE_AREA: snprintf(text, size, "X,Y,W,H like 0,0,320,240, W and H from %u, or a PNG file", row->low); break;
     case VALUE_FRAMES:
         snprintf(text, size, "N, A-B, A- or all, perhaps with :STEP, from %u", row->low);
         break;
@@ -134,7 +177,8 @@ static bool set_value(struct arguments *args, enum option_id option, const char 
     const struct option_row *row = &OPTION_TABLE[option];
     char expected[128];
     if (text && read_value(row, text, &args->option[option])) {
-        if (row->kind == VALUE_PAIR) args->pairs[args->pair_count++] = (struct option_pair){option, text};
+        if (row->kind == VALUE_PAIR || row->kind == VALUE_AREA)
+            args->pairs[args->pair_count++] = (struct option_pair){option, text};
         return args->option[option].given = true;
     }
     describe_value(row, expected, sizeof expected);

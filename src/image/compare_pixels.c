@@ -8,7 +8,7 @@
 #include "base/parallel.h"
 #include "image/compare.h"
 
-enum { BLOCK = 64 /* pixels that are looked at together */, BAND = 16 /* rows that a thread takes at a time */ };
+enum { BLOCK = 16 /* pixels that are looked at together */, BAND = 16 /* rows that a thread takes at a time */ };
 
 /* How both pictures are read: with as many channels and bits as the one that has more. */
 struct layout {
@@ -30,18 +30,16 @@ static inline unsigned read_number(const uint8_t *at, unsigned bits) {
     return bits == 16 ? (unsigned)at[0] << 8 | at[1] : at[0];
 }
 
-/* `count` pixels from `at` on, in that layout; 8 bits become 16 by v * 257, which keeps 0 and 1. */
-static void read_pixels(const struct monge_picture *picture, const uint8_t *at, unsigned count,
-                        const struct layout *layout, uint16_t *out) {
+/* A pixel in that layout; 8 bits become 16 by v * 257, which keeps 0 and 1. */
+static void read_pixel(const struct monge_picture *picture, const uint8_t *at, const struct layout *layout,
+                       uint16_t *out) {
     const unsigned colors = picture->channels >= 3 ? 3 : 1, bits = picture->bits, bytes = bits / 8;
     const unsigned scale = layout->bits > bits ? 257 : 1;
-    for (unsigned i = 0; i < count; i++, at += picture->channels * bytes) {
-        for (unsigned c = 0; c < layout->colors; c++)
-            *out++ = (uint16_t)(scale * read_number(at + (c < colors ? c * bytes : 0), bits));
-        if (layout->channels == layout->colors) continue;
-        const bool alpha = picture->channels > colors;
-        *out++ = (uint16_t)(alpha ? scale * read_number(at + colors * bytes, bits) : max_code(layout));
-    }
+    const bool alpha = picture->channels > colors;
+    for (unsigned c = 0; c < layout->colors; c++)
+        *out++ = (uint16_t)(scale * read_number(at + (c < colors ? c * bytes : 0), bits));
+    if (layout->channels > layout->colors)
+        *out = (uint16_t)(alpha ? scale * read_number(at + colors * bytes, bits) : max_code(layout));
 }
 
 /* What a thread has found. */
@@ -63,50 +61,87 @@ static bool is_before(uint32_t x, uint32_t y, uint32_t than_x, uint32_t than_y) 
     return y < than_y || (y == than_y && x < than_x);
 }
 
-static void count_pixel(struct tally *t, unsigned largest, unsigned limit, uint32_t x, uint32_t y) {
-    if (t->different == 0) t->left = t->right = x, t->top = t->bottom = y;
-    t->different++;
+#define INLINE static inline __attribute__((always_inline))
+
+/* Pixels come row by row, each from left to right. */
+INLINE void count_pixel(struct tally *t, unsigned largest, unsigned limit, uint32_t x, uint32_t y) {
+    if (t->different++ == 0) t->left = t->right = x, t->top = y;
     t->beyond += largest > limit;
-    if (x < t->left) t->left = x;
-    if (x > t->right) t->right = x;
-    if (y < t->top) t->top = y;
-    if (y > t->bottom) t->bottom = y;
-    if (largest > t->max || (largest == t->max && is_before(x, y, t->max_x, t->max_y)))
-        t->max = largest, t->max_x = x, t->max_y = y;
+    t->left = x < t->left ? x : t->left;
+    t->right = x > t->right ? x : t->right;
+    t->bottom = y;
+    if (largest > t->max) t->max = largest, t->max_x = x, t->max_y = y;
 }
 
-/* The pixels x .. x + count of row y, at most BLOCK. */
-static void count_block(const struct job *job, struct tally *t, uint32_t x, uint32_t y, unsigned count) {
-    const struct monge_picture *a = job->comparison->a, *b = job->comparison->b;
-    const uint8_t *at_a = picture_row(a, y) + x * picture_pixel_size(a);
-    const uint8_t *at_b = picture_row(b, y) + x * picture_pixel_size(b);
-    if (job->layout.same && memcmp(at_a, at_b, count * picture_pixel_size(a)) == 0) return;
-    uint16_t of_a[BLOCK * 4], of_b[BLOCK * 4];
-    const unsigned channels = job->layout.channels;
-    const uint8_t *ignored = comparison_ignored(job->comparison, y);
-    read_pixels(a, at_a, count, &job->layout, of_a);
-    read_pixels(b, at_b, count, &job->layout, of_b);
-    for (unsigned i = 0; i < count; i++) {
-        if (ignored && ignored[x + i]) continue;
-        unsigned largest = 0;
-        for (unsigned c = i * channels; c < (i + 1) * channels; c++) {
-            const unsigned difference = (unsigned)abs(of_a[c] - of_b[c]);
-            t->sum += difference;
-            t->squares += (uint64_t)difference * difference;
-            if (difference > largest) largest = difference;
-        }
-        if (largest > 0) count_pixel(t, largest, job->limit, x + i, y);
+/* A pixel of both, as that many numbers. */
+INLINE void count_numbers(const struct job *job, struct tally *t, uint32_t x, uint32_t y, const uint16_t *a,
+                          const uint16_t *b, unsigned channels) {
+    unsigned largest = 0;
+    for (unsigned c = 0; c < channels; c++) {
+        const unsigned difference = (unsigned)abs(a[c] - b[c]);
+        t->sum += difference;
+        t->squares += (uint64_t)difference * difference;
+        largest = difference > largest ? difference : largest;
     }
+    if (largest > 0) count_pixel(t, largest, job->limit, x, y);
+}
+
+/* A row of pictures of one layout: most of the pixels are equal, byte by byte. channels and bits are known to the
+ * compiler, for those that are common. */
+INLINE void count_alike(const struct job *job, struct tally *t, uint32_t y, unsigned channels, unsigned bits) {
+    const uint32_t width = job->comparison->a->width;
+    const size_t bytes = bits / 8, size = channels * bytes;
+    const uint8_t *a = picture_row(job->comparison->a, y), *b = picture_row(job->comparison->b, y);
+    const uint8_t *ignored = comparison_ignored(job->comparison, y);
+    for (uint32_t begin = 0; begin < width; begin += BLOCK) {
+        const uint32_t end = width - begin < BLOCK ? width : begin + BLOCK;
+        if (memcmp(a + begin * size, b + begin * size, (end - begin) * size) == 0) continue;
+        for (uint32_t x = begin; x < end; x++) {
+            const uint8_t *at_a = a + x * size, *at_b = b + x * size;
+            uint16_t of_a[4], of_b[4];
+            if (memcmp(at_a, at_b, size) == 0 || (ignored && ignored[x])) continue;
+            for (unsigned c = 0; c < channels; c++) {
+                of_a[c] = (uint16_t)read_number(at_a + c * bytes, bits);
+                of_b[c] = (uint16_t)read_number(at_b + c * bytes, bits);
+            }
+            count_numbers(job, t, x, y, of_a, of_b, channels);
+        }
+    }
+}
+
+/* A row of any others. */
+static void count_unlike(const struct job *job, struct tally *t, uint32_t y) {
+    const struct monge_picture *a = job->comparison->a, *b = job->comparison->b;
+    const uint8_t *ignored = comparison_ignored(job->comparison, y);
+    for (uint32_t x = 0; x < a->width; x++) {
+        uint16_t of_a[4], of_b[4];
+        if (ignored && ignored[x]) continue;
+        read_pixel(a, picture_row(a, y) + x * picture_pixel_size(a), &job->layout, of_a);
+        read_pixel(b, picture_row(b, y) + x * picture_pixel_size(b), &job->layout, of_b);
+        count_numbers(job, t, x, y, of_a, of_b, job->layout.channels);
+    }
+}
+
+static void count_row(const struct job *job, struct tally *t, uint32_t y) {
+    const unsigned channels = job->layout.channels, bits = job->layout.bits;
+    if (!job->layout.same)
+        count_unlike(job, t, y);
+    else if (bits == 8 && channels == 3)
+        count_alike(job, t, y, 3, 8);
+    else if (bits == 8 && channels == 4)
+        count_alike(job, t, y, 4, 8);
+    else if (bits == 16 && channels == 3)
+        count_alike(job, t, y, 3, 16);
+    else
+        count_alike(job, t, y, channels, bits);
 }
 
 static void count_bands(void *context, unsigned thread) {
     struct job *job = context;
     struct tally t = {0};
-    const uint32_t width = job->comparison->a->width, height = job->comparison->a->height;
+    const uint32_t height = job->comparison->a->height;
     for (uint64_t band; (band = (uint64_t)BAND * atomic_fetch_add(&job->next, 1)) < height;)
-        for (uint32_t y = (uint32_t)band; y < height && y < band + BAND; y++)
-            for (uint32_t x = 0; x < width; x += BLOCK)
-                count_block(job, &t, x, y, width - x < BLOCK ? width - x : BLOCK);
+        for (uint32_t y = (uint32_t)band; y < height && y < band + BAND; y++) count_row(job, &t, y);
     job->tallies[thread] = t;
 }
 
@@ -168,8 +203,8 @@ void compare_row(const struct comparison *comparison, uint32_t y, float *largest
     for (uint32_t x = 0; x < a->width; x++) {
         uint16_t of_a[4], of_b[4];
         int worst = 0;
-        read_pixels(a, picture_row(a, y) + x * picture_pixel_size(a), 1, &layout, of_a);
-        read_pixels(b, picture_row(b, y) + x * picture_pixel_size(b), 1, &layout, of_b);
+        read_pixel(a, picture_row(a, y) + x * picture_pixel_size(a), &layout, of_a);
+        read_pixel(b, picture_row(b, y) + x * picture_pixel_size(b), &layout, of_b);
         for (unsigned c = 0; c < layout.channels; c++)
             if (abs(of_a[c] - of_b[c]) > worst) worst = abs(of_a[c] - of_b[c]);
         largest[x] = ignored && ignored[x] ? 0.0f : (float)worst / (float)max_code(&layout);
