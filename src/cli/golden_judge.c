@@ -19,17 +19,20 @@ static void copy_stamp(const struct golden_stamp *from, struct golden_stamp *to)
     to->options = say_text("%s", from->options);
 }
 
-/* What the picture says that it was made from. */
-static void read_stamp(const struct monge_picture *picture, struct golden_stamp *stamp) {
-    const char *options = monge_picture_text(picture, "monge:options");
-    copy_hash(monge_picture_text(picture, "monge:pixels"), stamp->pixels);
-    copy_hash(monge_picture_text(picture, "monge:scene"), stamp->scene);
-    copy_hash(monge_picture_text(picture, "monge:text"), stamp->text);
-    copy_hash(monge_picture_text(picture, "monge:program"), stamp->program);
-    if (options || *stamp->program) stamp->options = say_text("%s", options ? options : "");
+/* What the picture says that it was made from; where it is not as it was written, that says nothing of it. `pixels` is the
+ * hash of those that it has, "" of another kind of picture. */
+static void read_stamp(const struct monge_picture *picture, const char *pixels, struct golden_stamp *stamp) {
+    const char *options = monge_picture_text(picture, "monge:options"),
+               *said = monge_picture_text(picture, "monge:pixels");
     stamp->width = monge_picture_width(picture);
     stamp->height = monge_picture_height(picture);
     stamp->bits = monge_picture_bits(picture);
+    copy_hash(pixels, stamp->pixels);
+    if (!said || strcmp(said, pixels) != 0) return;
+    copy_hash(monge_picture_text(picture, "monge:scene"), stamp->scene);
+    copy_hash(monge_picture_text(picture, "monge:text"), stamp->text);
+    copy_hash(monge_picture_text(picture, "monge:program"), stamp->program);
+    stamp->options = say_text("%s", options ? options : "");
 }
 
 /* What the diagnostics have to say becomes part of the message. */
@@ -62,19 +65,20 @@ static bool miss(struct golden_case *c) {
 
 /* The golden that is a picture: what it says, and that it can be read. */
 static bool find_picture(struct golden_case *c, const char *path) {
-    struct monge_picture *picture = read_picture(c, path);
     struct monge_diagnostics *diag = monge_diagnostics_new();
-    if (!picture || !diag || !monge_files_hash(path, "", NULL, diag, c->golden_file)) {
-        monge_diagnostics_free(diag);
-        monge_picture_free(picture);
-        return miss(c);
+    struct monge_picture *picture = diag ? read_picture(c, path) : NULL;
+    char pixels[MONGE_HASH_SIZE] = "";
+    const bool good = picture && monge_files_hash(path, "", NULL, diag, c->golden_file);
+    if (good) {
+        golden_stamp_free(&c->old);
+        c->old = (struct golden_stamp){0};
+        if (!monge_picture_hash(picture, diag, pixels)) *pixels = '\0';
+        read_stamp(picture, pixels, &c->old);
+        c->golden_path = say_text("%s", path);
     }
-    golden_stamp_free(&c->old);
-    read_stamp(picture, &c->old);
-    c->golden_path = say_text("%s", path);
-    monge_diagnostics_free(diag);
     monge_picture_free(picture);
-    return true;
+    monge_diagnostics_free(diag);
+    return good || miss(c);
 }
 
 /* Of goldens that are both, one may have gone; and what is kept otherwise than the settings say tells that there was one. */
@@ -158,26 +162,25 @@ static bool compare_files(struct golden_case *c) {
     return good;
 }
 
+static bool is_exact(const struct golden_case *c) { return strcmp(c->old.pixels, c->now.pixels) == 0; }
+
 static void judge_picture(struct golden_case *c) {
-    if (!compare_files(c)) {
+    if (compare_files(c))
+        judge_difference(c);
+    else
         miss(c);
-        return;
-    }
-    judge_difference(c);
 }
 
-/* The line of a golden that is both a line and a picture must be that of the picture. */
-static void judge_both(struct golden_case *c, const struct golden_line *line) {
-    judge_picture(c);
-    const bool hash_same = strcmp(line->stamp.pixels, c->now.pixels) == 0;
-    if (!c->compared || hash_same == c->difference.same) return;
-    golden_add_message(c, "its line in golden.lock is not that of the picture %s", c->golden_path);
-    miss(c);
+/* A golden that is both a line and a picture must be the same in both. */
+static bool halves_agree(const struct golden_run *run, struct golden_case *c) {
+    const struct golden_line *line = golden_lock_find(&run->lock, c->name);
+    if (c->kind != MONGE_GOLDEN_BOTH || strcmp(line->stamp.pixels, c->old.pixels) == 0) return true;
+    golden_add_message(c, "its line in %s is not that of the picture %s", run->lock.path, c->golden_path);
+    return miss(c);
 }
 
 static void judge_hash(const struct golden_run *run, struct golden_case *c) {
-    c->status = strcmp(c->old.pixels, c->now.pixels) == 0 ? GOLDEN_SAME : GOLDEN_CHANGED;
-    if (c->status == GOLDEN_SAME) return;
+    c->status = GOLDEN_CHANGED;
     if (c->tolerance_text)
         golden_add_message(c, "a golden that is a hash knows no tolerance: keep its picture, by `kind: png`");
     if (!run->old_program || !golden_render_old(run, c) || !compare_files(c)) return;
@@ -205,14 +208,17 @@ static bool write_new(const struct golden_run *run, struct golden_case *c, const
 
 /* The commit that brought the line, its scene, and the options of then. */
 static void set_old_command(const struct golden_run *run, struct golden_case *c) {
-    const char *options = c->old.options && *c->old.options ? c->old.options : NULL;
+    const char *options = c->old.options ? c->old.options : "";
+    char *line = golden_lock_line(c->name, &c->old), *quoted_line = golden_quoted(line);
     char *lock = golden_quoted(run->lock.path), *scene = golden_quoted(c->scene);
     c->old_command =
-        say_text("git worktree add /tmp/monge-old \"$(git log -1 --format=%%h -S %s -- %s)\" && monge render "
-                 "\"/tmp/monge-old/$(git ls-files --full-name %s)\"%s%s -o old.png",
-                 c->old.pixels, lock, scene, options ? " " : "", options ? options : "");
+        say_text("git worktree add /tmp/monge-old \"$(git log -1 --format=%%h -S %s -- %s)\" && monge "
+                 "render \"/tmp/monge-old/$(git ls-files --full-name %s)\"%s%s -o old.png",
+                 quoted_line, lock, scene, *options ? " " : "", options);
     free(scene);
     free(lock);
+    free(quoted_line);
+    free(line);
     if (golden_causes(c).program)
         golden_add_message(
             c,
@@ -228,16 +234,14 @@ static void drop_new(const struct golden_run *run, struct golden_case *c) {
 
 void golden_judge(const struct golden_run *run, struct golden_case *c, const struct monge_film *film,
                   bool has_golden) {
-    const bool hash = c->kind == MONGE_GOLDEN_HASH;
-    if (has_golden && hash && strcmp(c->old.pixels, c->now.pixels) == 0) {
+    const bool hash = c->kind == MONGE_GOLDEN_HASH, agree = !has_golden || halves_agree(run, c);
+    if (has_golden && agree && is_exact(c)) {
         c->status = GOLDEN_SAME;
         return;
     }
-    if (!write_new(run, c, film) || !has_golden) return;
+    if (!write_new(run, c, film) || !has_golden || !agree) return;
     if (hash)
         judge_hash(run, c);
-    else if (c->kind == MONGE_GOLDEN_BOTH)
-        judge_both(c, golden_lock_find(&run->lock, c->name));
     else
         judge_picture(c);
     if (c->status == GOLDEN_SAME)

@@ -121,6 +121,20 @@ static void print_line(FILE *out, const struct golden_line *line) {
     putc('\n', out);
 }
 
+char *golden_lock_line(const char *name, const struct golden_stamp *stamp) {
+    char *text = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&text, &size);
+    if (!out) {
+        say_error("out of memory");
+        exit(STATUS_TROUBLE);
+    }
+    print_escaped(out, name, true);
+    fprintf(out, " %ux%ux%u pixels=%s", stamp->width, stamp->height, stamp->bits, stamp->pixels);
+    fclose(out);
+    return text;
+}
+
 /* ---- The file ---- */
 
 static int compare_lines(const void *a, const void *b) {

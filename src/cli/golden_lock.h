@@ -29,6 +29,9 @@ void golden_lock_free(struct golden_lock *lock);
 
 const struct golden_line *golden_lock_find(const struct golden_lock *lock, const char *name); /* NULL: none */
 
+/* How a line begins that no other golden has, up to its pixels: to look for in a history. To be freed. */
+char *golden_lock_line(const char *name, const struct golden_stamp *stamp);
+
 /* Puts a line in, in place of one of that name; the stamp is copied. */
 void golden_lock_put(struct golden_lock *lock, const char *name, const struct golden_stamp *stamp);
 void golden_lock_remove(struct golden_lock *lock, const char *name);

@@ -73,50 +73,50 @@ static void tell_line(const struct golden_teller *teller, const struct golden_ca
     static const char *const colors[] = {"32", "31", "36", "33", "33", "31"};
     char *detail = golden_detail(c),
          *line = say_text("%s%s%s", c->name, detail ? "  " : "", detail ? detail : "");
-    if (teller->colors) printf("\033[%sm", colors[c->status]);
-    printf("%-8s", GOLDEN_STATUS[c->status]);
-    if (teller->colors) fputs("\033[0m", stdout);
-    print_lines(stdout, line, " ");
-    golden_print_details(stdout, c, "         ");
+    if (teller->colors) fprintf(teller->out, "\033[%sm", colors[c->status]);
+    fprintf(teller->out, "%-8s", GOLDEN_STATUS[c->status]);
+    if (teller->colors) fputs("\033[0m", teller->out);
+    print_lines(teller->out, line, " ");
+    golden_print_details(teller->out, c, "         ");
     free(line);
     free(detail);
 }
 
 /* ---- As TAP ---- */
 
-static void put_description(const char *name) {
+static void put_description(FILE *out, const char *name) {
     for (const char *c = name; *c; c++) {
-        if (*c == '#' || *c == '\\') putchar('\\');
-        putchar((unsigned char)*c < 0x20 || *c == 0x7f ? '?' : *c);
+        if (*c == '#' || *c == '\\') putc('\\', out);
+        putc((unsigned char)*c < 0x20 || *c == 0x7f ? '?' : *c, out);
     }
 }
 
-static void put_block(const struct golden_case *c) {
+static void put_block(FILE *to, const struct golden_case *c) {
     char *detail = golden_detail(c), *lines = NULL;
     size_t size = 0;
     FILE *out = open_memstream(&lines, &size);
     if (out) golden_print_details(out, c, "");
     if (out) fclose(out);
-    printf("  ---\n  status: %s\n  detail: ", GOLDEN_STATUS[c->status]);
-    monge_write_json_string(detail ? detail : "", stdout);
-    fputs("\n  lines: ", stdout);
-    monge_write_json_string(lines ? lines : "", stdout);
-    fputs("\n  ...\n", stdout);
+    fprintf(to, "  ---\n  status: %s\n  detail: ", GOLDEN_STATUS[c->status]);
+    monge_write_json_string(detail ? detail : "", to);
+    fputs("\n  lines: ", to);
+    monge_write_json_string(lines ? lines : "", to);
+    fputs("\n  ...\n", to);
     free(lines);
     free(detail);
 }
 
 static void tell_tap(const struct golden_teller *teller, const struct golden_case *c) {
-    printf("%sok %zu - ", c->status == GOLDEN_SAME ? "" : "not ", teller->told);
-    put_description(c->name);
-    printf("%s\n", c->unchanged ? " # SKIP unchanged" : "");
-    if (c->status != GOLDEN_SAME) put_block(c);
+    fprintf(teller->out, "%sok %zu - ", c->status == GOLDEN_SAME ? "" : "not ", teller->told);
+    put_description(teller->out, c->name);
+    fprintf(teller->out, "%s\n", c->unchanged ? " # SKIP unchanged" : "");
+    if (c->status != GOLDEN_SAME) put_block(teller->out, c);
 }
 
 /* ---- Both ---- */
 
 void golden_tell_begin(struct golden_teller *teller) {
-    if (teller->tap) printf("TAP version 13\n");
+    if (teller->tap) fprintf(teller->out, "TAP version 13\n");
 }
 
 void golden_tell(struct golden_teller *teller, const struct golden_case *c) {
@@ -131,8 +131,8 @@ void golden_tell(struct golden_teller *teller, const struct golden_case *c) {
 void golden_tell_end(struct golden_teller *teller, const struct golden_results *results) {
     char *summary = golden_summary(results);
     if (teller->tap)
-        printf("1..%zu\n# %s\n", teller->told, summary);
+        fprintf(teller->out, "1..%zu\n# %s\n", teller->told, summary);
     else
-        printf("%s, in %.1f s\n", summary, results->seconds);
+        fprintf(teller->out, "%s, in %.1f s\n", summary, results->seconds);
     free(summary);
 }

@@ -7,13 +7,14 @@
 #include "cli/golden_results.h"
 
 struct golden_teller {
+    FILE *out;
     bool tap;    /* as TAP version 13 */
     bool quiet;  /* what is the same is passed by */
     bool colors; /* of a terminal */
     size_t told; /* cases so far */
 };
 
-/* As lines on stdout. Begin comes before the first case, end after the last. */
+/* As lines. Begin comes before the first case, end after the last. */
 void golden_tell_begin(struct golden_teller *teller);
 void golden_tell(struct golden_teller *teller, const struct golden_case *c);
 void golden_tell_end(struct golden_teller *teller, const struct golden_results *results);

@@ -213,7 +213,8 @@ static bool take_new(struct test *test) {
         lines |= c->taken;
     }
     if (lines && !golden_lock_write(&run->lock)) return false;
-    if (wanted > 0 && !test->teller.tap) printf("%zu of %zu new pictures are goldens now\n", taken, wanted);
+    if (wanted > 0 && !test->teller.tap)
+        fprintf(test->teller.out, "%zu of %zu new pictures are goldens now\n", taken, wanted);
     return taken == wanted;
 }
 
@@ -260,8 +261,8 @@ static void hint(const struct test *test) {
         can |= golden_can_take(&test->results.cases[i]) && !test->results.cases[i].taken;
     if (!can || test->teller.tap || test->teller.quiet) return;
     const bool usual = !wants(test, OPTION_TEST_OUTPUT);
-    printf("`monge accept --golden %s%s%s` takes the new pictures\n", test->run.folder,
-           usual ? "" : " --output ", usual ? "" : test->run.output);
+    fprintf(test->teller.out, "`monge accept --golden %s%s%s` takes the new pictures\n", test->run.folder,
+            usual ? "" : " --output ", usual ? "" : test->run.output);
 }
 
 /* ---- All of it ---- */
@@ -287,11 +288,19 @@ static enum status run_test(struct test *test) {
     return good ? judge(test) : STATUS_TROUBLE;
 }
 
+static bool is_standard(const struct option_value *option) {
+    return option->given && strcmp(option->text, "-") == 0;
+}
+
 static bool begin(struct test *test, const struct arguments *args) {
     const struct option_value *option = args->option;
     struct golden_run *run = &test->run;
     if (!option[OPTION_GOLDEN].given) {
         say_usage(COMMAND_TEST, "test: --golden DIR is missing, the folder of the goldens");
+        return false;
+    }
+    if (is_standard(&option[OPTION_TEST_JSON]) && is_standard(&option[OPTION_JUNIT])) {
+        say_usage(COMMAND_TEST, "--json - and --junit -: standard output can take only one of them");
         return false;
     }
     run->folder = option[OPTION_GOLDEN].text;
@@ -300,9 +309,13 @@ static bool begin(struct test *test, const struct arguments *args) {
     run->changed_only = option[OPTION_CHANGED].given;
     run->threads = option[OPTION_THREADS].number[0];
     run->jobs = option[OPTION_JOBS].given ? option[OPTION_JOBS].number[0] : monge_processors();
-    test->teller = (struct golden_teller){.tap = option[OPTION_TAP].given,
+    /* a document must be alone on standard output */
+    FILE *out =
+        is_standard(&option[OPTION_TEST_JSON]) || is_standard(&option[OPTION_JUNIT]) ? stderr : stdout;
+    test->teller = (struct golden_teller){.out = out,
+                                          .tap = option[OPTION_TAP].given,
                                           .quiet = option[OPTION_QUIET].given,
-                                          .colors = isatty(STDOUT_FILENO) && !getenv("NO_COLOR")};
+                                          .colors = isatty(fileno(out)) && !getenv("NO_COLOR")};
     test->results.folder = say_text("%s", run->folder);
     const enum monge_golden_kind kind = (enum monge_golden_kind)option[OPTION_GOLDEN_KIND].choice;
     return loader_begin(&run->loader, args) &&
