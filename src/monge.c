@@ -7,8 +7,10 @@
 #include "base/diag_write.h"
 #include "base/json.h"
 #include "face.h"
+#include "image/layers_file.h"
 #include "image/png.h"
 #include "lang/stories.h"
+#include "render/layers.h"
 #include "render/render.h"
 
 const char *monge_version(void) { return MONGE_VERSION; }
@@ -115,4 +117,34 @@ bool monge_film_write_png(const struct monge_film *film, const char *path, struc
     if (png_write_film(film, path, message, sizeof message)) return true;
     diag_failure(&diag->list, "cannot-write", "%s", message);
     return false;
+}
+
+struct monge_layers *monge_render_layers(struct monge_scene *scene, const struct monge_settings *settings,
+                                         const struct monge_region *region, unsigned wanted,
+                                         const struct monge_job *job) {
+    const struct monge_job no_job = {0};
+    const struct monge_region whole = {0, 0, settings->width, settings->height};
+    if (!region) region = &whole;
+    if (monge_settings_check(settings) || !region_inside(region, settings)) return NULL;
+    if (!monge_scene_prepare(scene)) return NULL;
+    struct monge_layers *layers = layers_new(settings->width, settings->height, *region, wanted);
+    if (!layers) return NULL;
+    if (render_layers(&scene->scene, scene->accel, settings, job ? job : &no_job, layers)) return layers;
+    monge_layers_free(layers);
+    return NULL;
+}
+
+bool monge_layer_write(const struct monge_layers *layers, enum monge_layer layer, const char *path,
+                       struct monge_diagnostics *diag) {
+    char message[1024];
+    if (layer_file_write(layers, layer, path, message, sizeof message)) return true;
+    diag_failure(&diag->list, "cannot-write", "%s", message);
+    return false;
+}
+
+struct monge_layers *monge_layers_read(const char *picture, unsigned wanted, struct monge_diagnostics *diag) {
+    char message[1024];
+    struct monge_layers *layers = layer_files_read(picture, wanted, message, sizeof message);
+    if (!layers && *message) diag_failure(&diag->list, "cannot-read", "%s", message);
+    return layers;
 }

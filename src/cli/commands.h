@@ -38,6 +38,7 @@ enum option_id {
     OPTION_DEPTH,
     OPTION_BITS,
     OPTION_ENCODING,
+    OPTION_AOV,
     OPTION_THREADS,
     OPTION_STATS,
     OPTION_PROGRESS,
@@ -62,6 +63,7 @@ enum value_kind {
     VALUE_SIZE,     /* WxH, each low .. high */
     VALUE_REGION,   /* X,Y,W,H: X and Y from 0, W and H low .. high */
     VALUE_CHOICE,   /* one of the words of `value` */
+    VALUE_SET,      /* some of the words of `value`, each once, with commas between */
     VALUE_FRAMES,   /* N, A-B, A- or all, with :STEP behind it; each low .. high */
     VALUE_PAIR,     /* NAME=VALUE; may be given many times */
 };
@@ -87,7 +89,7 @@ struct command_row {
     const char *name;
     const char *operands;       /* "SCENE...", "" */
     const char *doc;            /* no capital, no full stop */
-    const char *text[8];        /* paragraphs, up to a NULL */
+    const char *text[9];        /* paragraphs, up to a NULL */
     struct example examples[8]; /* up to a NULL */
     bool needs_operand;
     enum status (*run)(const struct arguments *args);
@@ -95,6 +97,11 @@ struct command_row {
 extern const struct command_row COMMAND_TABLE[COMMANDS];
 
 extern const char *const STATUS_DOC[STATUS_TROUBLE + 1];
+
+/* Whether the value is made of words that are known. */
+static inline bool option_has_words(const struct option_row *row) {
+    return row->kind == VALUE_CHOICE || row->kind == VALUE_SET;
+}
 
 static inline bool command_takes(enum command_id command, enum option_id option) {
     return OPTION_TABLE[option].commands >> command & 1;

@@ -46,7 +46,7 @@ static void print_bash_value(FILE *out, enum command_id command, enum option_id 
     fprintf(out, "    %s,--%s", name, row->name);
     if (row->letter) fprintf(out, " | %s,-%c", name, row->letter);
     fputs(") ", out);
-    if (row->kind == VALUE_CHOICE) {
+    if (option_has_words(row)) {
         fputs("mapfile -t COMPREPLY < <(compgen -W '", out);
         print_choices(out, row->value);
         fputs("' -- \"$word\")", out);
@@ -131,10 +131,10 @@ static void print_zsh_option(FILE *out, enum option_id option) {
     fputs("]", out);
     if (row->value) {
         fputs(":", out);
-        print_zsh_text(out, row->kind == VALUE_CHOICE ? row->name : row->value);
+        print_zsh_text(out, option_has_words(row) ? row->name : row->value);
         fputs(":", out);
         if (row->kind == VALUE_FILE) fputs("_files", out);
-        if (row->kind == VALUE_CHOICE) {
+        if (option_has_words(row)) {
             fputs("(", out);
             print_choices(out, row->value);
             fputs(")", out);
@@ -202,7 +202,7 @@ static void print_fish_option(FILE *out, enum command_id command, enum option_id
         fputs(" -r", out);
     else if (row->value)
         fputs(" -x", out);
-    if (row->kind == VALUE_CHOICE) {
+    if (option_has_words(row)) {
         fputs(" -a '", out);
         print_choices(out, row->value);
         fputs("'", out);

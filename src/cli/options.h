@@ -11,6 +11,7 @@ struct option_value {
         [4]; /* of a whole number, a size or a region, in the order of writing; of frames: first, last (0: open), step */
     double fraction;
     unsigned choice; /* which of the words of the table, from 0 */
+    unsigned set;    /* which words there are: a bit 1 << choice for each */
 };
 
 /* A VALUE_PAIR as it was given. */

@@ -8,6 +8,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "cli/aov.h"
 #include "cli/pattern.h"
 #include "cli/say.h"
 
@@ -205,6 +206,17 @@ static void add_claim(struct plan *plan, const char *path, const char *user, boo
     plan->claims[plan->claim_count++] = (struct claim){resolve(path), user, writes};
 }
 
+/* A picture with the files of its passes. */
+static void add_picture_claims(struct plan *plan, const char *picture, const char *user) {
+    add_claim(plan, picture, user, true);
+    for (enum monge_layer layer = 0; layer < MONGE_LAYERS; layer++) {
+        if (!(plan->passes >> layer & 1)) continue;
+        char *path = aov_path(layer, picture);
+        add_claim(plan, path, user, true);
+        free(path);
+    }
+}
+
 static bool make_room(struct plan *plan, size_t more) {
     struct claim *claims = realloc(plan->claims, (plan->claim_count + more) * sizeof *claims);
     if (claims)
@@ -215,26 +227,31 @@ static bool make_room(struct plan *plan, size_t more) {
 }
 
 static bool check_files(struct plan *plan) {
-    if (!make_room(plan, plan->count * 2 + 1)) return false;
+    if (!make_room(plan, plan->count * (2 + MONGE_LAYERS) + 1)) return false;
     for (size_t i = 0; i < plan->count; i += plan->sweep->total)
         add_claim(plan, plan->outputs[i].scene, plan->outputs[i].scene, false);
     for (size_t i = 0; i < plan->count; i++)
-        add_claim(plan, plan->outputs[i].path, plan->outputs[i].title, true);
+        add_picture_claims(plan, plan->outputs[i].path, plan->outputs[i].title);
     if (plan->stats) add_claim(plan, plan->stats, "--stats", true);
     return check_claims(plan);
 }
 
 static bool check_streams(const struct plan *plan) {
     const char *stats = plan->stats;
-    size_t inputs = 0, pictures = 0;
+    size_t inputs = 0, pictures = 0, devices = 0;
     for (size_t i = 0; i < plan->count; i++) {
         inputs += i % plan->sweep->total == 0 && is_stream(plan->outputs[i].scene);
         pictures += is_stream(plan->outputs[i].path);
+        devices += is_special(plan->outputs[i].path);
     }
     if (inputs > 1)
         say_usage(COMMAND_RENDER, "standard input can be only one scene");
     else if (pictures > 1 || (pictures && many_frames(plan)))
         say_usage(COMMAND_RENDER, "-o -: standard output can take only one picture");
+    else if (plan->passes && pictures)
+        say_usage(COMMAND_RENDER, "--aov: passes are files beside the picture; give -o FILE");
+    else if (plan->passes && devices)
+        say_usage(COMMAND_RENDER, "--aov: passes are files beside the picture, which %s is not", plan->wanted);
     else if (pictures && stats && is_stream(stats))
         say_usage(COMMAND_RENDER, "--stats -: standard output takes the picture");
     else if (pictures && isatty(STDOUT_FILENO))
@@ -278,8 +295,19 @@ static bool makes_folders(const struct plan *plan) {
            (ends_in_slash(plan->wanted) || !pattern_is_plain(plan->wanted, plan->frames != NULL));
 }
 
+static bool check_passes_writable(const struct plan *plan, const char *picture) {
+    bool writable = true;
+    for (enum monge_layer layer = 0; layer < MONGE_LAYERS && writable; layer++) {
+        char *path = plan->passes >> layer & 1 ? aov_path(layer, picture) : NULL;
+        writable = !path || check_writable(path);
+        free(path);
+    }
+    return writable;
+}
+
 static bool check_folder(const struct plan *plan, char *path) {
-    return (!makes_folders(plan) || make_folder(path)) && check_writable(path);
+    return (!makes_folders(plan) || make_folder(path)) && check_writable(path) &&
+           check_passes_writable(plan, path);
 }
 
 /* Whether the folder is known before the frame is. */
@@ -324,6 +352,7 @@ bool plan_begin(struct plan *plan, const struct arguments *args, const struct sw
         .stats = args->option[OPTION_STATS].text,
         .sweep = sweep,
         .frames = frames->given ? frames : NULL,
+        .passes = args->option[OPTION_AOV].set,
         .scene_count = args->count,
         .count = args->count * sweep->total,
     };
@@ -345,8 +374,8 @@ void plan_free(struct plan *plan) {
 }
 
 static bool check_paths(struct plan *plan, const struct output *output, char **paths, size_t count) {
-    if (!make_room(plan, count)) return false;
-    for (size_t i = 0; i < count; i++) add_claim(plan, paths[i], output->title, true);
+    if (!make_room(plan, count * (1 + MONGE_LAYERS))) return false;
+    for (size_t i = 0; i < count; i++) add_picture_claims(plan, paths[i], output->title);
     if (!check_claims(plan)) return false;
     for (size_t i = 0; i < count; i++)
         if (!check_folder(plan, paths[i])) return false;

@@ -18,6 +18,7 @@ struct plan {
     const char *wanted, *stats; /* the values of -o and --stats; NULL: not given */
     const struct sweep *sweep;
     const struct option_value *frames; /* NULL: --frames is not given */
+    unsigned passes;                   /* a bit 1 << layer for each that --aov asks for */
     size_t scene_count;
     struct output *outputs; /* each scene with each combination, the combinations running fastest */
     size_t count;

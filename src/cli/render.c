@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/aov.h"
 #include "cli/clock.h"
 #include "cli/interrupt.h"
 #include "cli/load.h"
@@ -105,6 +106,15 @@ static enum status choose_settings(const struct work *work, const char *scene, c
     return option[OPTION_SIZE].given ? STATUS_TROUBLE : STATUS_NO;
 }
 
+/* The auxiliary passes, where there are to be any. */
+static bool write_passes(struct work *work, struct monge_scene *scene, const struct picture *picture) {
+    const struct option_value *option = work->args.option;
+    const struct monge_job job = {.threads = option[OPTION_THREADS].number[0], .cancel = interrupt_flag()};
+    return !option[OPTION_AOV].given ||
+           aov_write(scene, &picture->settings, &picture->region, option[OPTION_AOV].set, &job,
+                     picture->output, &work->loader.report);
+}
+
 /* Everything after loading. A signal in here ends the program once nothing is half done. */
 static enum status render_scene(struct work *work, const struct output *output, const struct load *load,
                                 struct picture *picture) {
@@ -115,9 +125,10 @@ static enum status render_scene(struct work *work, const struct output *output, 
     struct monge_film *film = render_film(work->args.option, title, load->scene, &picture->region, picture);
     const double rendered = clock_seconds();
     picture->done = film && write_film(film, picture->output, &work->loader.report);
+    monge_film_free(film);
+    if (picture->done) picture->done = write_passes(work, load->scene, picture);
     picture->write_seconds = clock_seconds() - rendered;
     picture->peak_memory_bytes = stats_peak_memory();
-    monge_film_free(film);
     interrupt_settle();
     free(title);
     return picture->done ? STATUS_YES : STATUS_TROUBLE;
