@@ -304,7 +304,7 @@ struct monge_region monge_layers_region(const struct monge_layers *layers); /* t
 
 /* The pixels, row by row from the top left; NULL where the layer is not there. Valid as long as the layers.
  *   ids      object or material
- *   depth    in world units; may be negative nowhere, infinite in the background
+ *   depth    in world units; 0 or more, infinite in the background
  *   normals  x, y, z of each pixel, -1 .. 1 as 0 .. 65535; 0, 0, 0 in the background
  *   lights   a bit 1 << i for each point light that reaches the surface from the side that is seen: light i of
  *            the scene, ambient ones left out, of the first MONGE_LAYER_LIGHTS. What is clear lets light pass. */
@@ -372,7 +372,7 @@ struct monge_causes {
 };
 struct monge_causes monge_causes(const struct monge_stamp *older, const struct monge_stamp *newer);
 
-/* The same as a sentence: "the scene's text differs; its options and the program are the same". As snprintf. */
+/* The same as a sentence: "the scene's text differs; the options and the program are the same". As snprintf. */
 size_t monge_causes_text(const struct monge_causes *causes, char *text, size_t size);
 
 #endif
