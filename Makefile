@@ -17,7 +17,7 @@ JOBS = $(eval JOBS := $(shell getconf _NPROCESSORS_ONLN 2>/dev/null || echo 1))$
 STATIONS := base lang scene shape accel render image cli
 # Where the tests of editors have their packages; the same for all variants of the build.
 export NODE_FOLDER ?= $(abspath $(BUILD))/editor
-LIBRARIES := yaml-0.1 libpng sleef
+LIBRARIES := yaml-0.1 libpng libdeflate sleef
 
 # ---- Flags ----
 

@@ -7,7 +7,6 @@
 #include "base/diag_write.h"
 #include "base/json.h"
 #include "face.h"
-#include "image/layers_file.h"
 #include "image/png.h"
 #include "lang/stories.h"
 #include "render/layers.h"
@@ -132,19 +131,4 @@ struct monge_layers *monge_render_layers(struct monge_scene *scene, const struct
     if (render_layers(&scene->scene, scene->accel, settings, job ? job : &no_job, layers)) return layers;
     monge_layers_free(layers);
     return NULL;
-}
-
-bool monge_layer_write(const struct monge_layers *layers, enum monge_layer layer, const char *path,
-                       struct monge_diagnostics *diag) {
-    char message[1024];
-    if (layer_file_write(layers, layer, path, message, sizeof message)) return true;
-    diag_failure(&diag->list, "cannot-write", "%s", message);
-    return false;
-}
-
-struct monge_layers *monge_layers_read(const char *picture, unsigned wanted, struct monge_diagnostics *diag) {
-    char message[1024];
-    struct monge_layers *layers = layer_files_read(picture, wanted, message, sizeof message);
-    if (!layers && *message) diag_failure(&diag->list, "cannot-read", "%s", message);
-    return layers;
 }

@@ -263,6 +263,87 @@ const float *monge_film_pixels(const struct monge_film *film);
  * its name or not at all. False when it cannot: diag says why, as a failure. */
 bool monge_film_write_png(const struct monge_film *film, const char *path, struct monge_diagnostics *diag);
 
+/* ---- Pictures: PNG files, and how they differ ---- */
+
+/* A PNG file in memory. Its pixels are decoded when they are first needed; until then it costs its file's bytes. */
+struct monge_picture;
+
+/* Reads a PNG file, "-" being standard input, and checks its chunks: their order and check sums, its header, its
+ * colour space, its texts. NULL: diag says why, as a failure. The caller frees the picture. */
+struct monge_picture *monge_picture_read(const char *path, struct monge_diagnostics *diag);
+void monge_picture_free(struct monge_picture *picture);
+
+uint32_t monge_picture_width(const struct monge_picture *picture);
+uint32_t monge_picture_height(const struct monge_picture *picture);
+
+/* As its pixels are decoded: 8 or 16 bits a channel, fewer becoming 8; 1 channel is grey, 2 grey with alpha, 3 red,
+ * green, blue, 4 those with alpha. A palette is looked up, and a transparent colour becomes alpha. */
+unsigned monge_picture_bits(const struct monge_picture *picture);
+unsigned monge_picture_channels(const struct monge_picture *picture);
+
+/* "sRGB", which one that says nothing counts as; "gamma 1"; "ICC profile NAME". As long as the picture. */
+const char *monge_picture_color_space(const struct monge_picture *picture);
+
+/* The text of the first text chunk of that key, as long as the picture; NULL: there is none. */
+const char *monge_picture_text(const struct monge_picture *picture, const char *key);
+
+/* Decodes the pixels, where that has not been done. False: diag says why, as a failure. Not from two threads at once. */
+bool monge_picture_decode(struct monge_picture *picture, struct monge_diagnostics *diag);
+
+/* A row of a picture that has been decoded: width * channels numbers of bits / 8 bytes, the high byte first. */
+const uint8_t *monge_picture_row(const struct monge_picture *picture, uint32_t y);
+
+enum monge_metric {
+    MONGE_METRIC_EXACT, /* the part of the pixels that are not the same */
+    MONGE_METRIC_MAX,   /* the largest difference of a channel */
+    MONGE_METRIC_MAE,   /* the mean of the differences of channels */
+    MONGE_METRIC_RMSE,  /* the root of the mean of their squares */
+    MONGE_METRIC_PSNR,  /* -20 log10 of that, in decibels; infinite for equal ones */
+    MONGE_METRIC_SSIM,  /* structural similarity of luma, 1 for equal ones: Wang et al. 2004 */
+    MONGE_METRIC_FLIP,  /* what an eye sees when they alternate, 0 .. 1: Andersson et al. 2020 */
+    MONGE_METRICS
+};
+
+/* How to compare. Zeroed: exactly, with the first four metrics and PSNR, which cost nothing. */
+struct monge_compare {
+    unsigned metrics;                  /* 1 << MONGE_METRIC_SSIM, 1 << MONGE_METRIC_FLIP: those as well */
+    double max_delta;                  /* a pixel whose channels differ by no more is not `beyond`; 0 .. 1 */
+    double ppd;                        /* FLIP: pixels per degree of sight; 0: MONGE_DEFAULT_PPD */
+    const struct monge_region *ignore; /* pixels that count as equal; may reach over the picture's edge */
+    size_t ignore_count;
+    struct monge_picture *mask; /* of the same size: what is not black and not transparent in it is ignored; or NULL */
+    unsigned threads;           /* 0: one for each processor */
+};
+#define MONGE_DEFAULT_PPD 67.0
+
+enum monge_unlike { MONGE_UNLIKE_NOTHING, MONGE_UNLIKE_SIZE, MONGE_UNLIKE_COLOR_SPACE, MONGE_UNLIKE_BITS };
+
+/* Differences are on the scale 0 .. 1 of the numbers in the files, whatever their bits and their encoding. A picture
+ * without alpha is opaque, and grey is equal red, green and blue: neither is a difference. */
+struct monge_difference {
+    bool same;                /* in every respect: size, colour space, bits, pixels that are not ignored */
+    enum monge_unlike unlike; /* the first of these that is not the same */
+    /* Below: NaN and 0 where pixels cannot be compared, their size or colour space not being the same. */
+    uint64_t pixels;    /* that are compared: all that are not ignored */
+    uint64_t different; /* of these, not the same */
+    uint64_t beyond;    /* of these, with a channel that differs by more than max_delta */
+    double max, mae, rmse, psnr;
+    double ssim, flip;          /* NaN where they are not asked for */
+    struct monge_region bounds; /* of the pixels that are not the same; empty when there are none */
+    uint32_t max_x, max_y;      /* the first pixel with the largest difference */
+};
+
+/* Compares b with a. The same numbers for every number of threads. False when a file turns out to be damaged, or the
+ * mask to be of another size: diag says why, as a failure. Files with the same bytes are not decoded. */
+bool monge_compare(struct monge_picture *a, struct monge_picture *b, const struct monge_compare *how,
+                   struct monge_difference *out, struct monge_diagnostics *diag);
+
+/* Writes a picture of where they differ, of their size: a in dim grey, and what differs in colours from violet by
+ * orange to pale yellow, after the largest difference of a channel, or FLIP's error where how->metrics has it. A
+ * file appears complete under its name or not at all; "-" is standard output. False: diag says why. */
+bool monge_heat_map_write(struct monge_picture *a, struct monge_picture *b, const struct monge_compare *how,
+                          const char *path, struct monge_diagnostics *diag);
+
 /* ---- Layers: auxiliary passes, what a picture shows rather than how it looks ---- */
 
 /* Each tells of a pixel what the ray through its centre meets first, whatever the picture's samples are. */
@@ -349,13 +430,15 @@ struct monge_change {
     struct monge_region bounds;       /* around them, from the top left corner of the pictures */
 };
 
-/* Tells what changed from the older picture to the newer. `differs` has a byte for each pixel, not 0 where the two
- * pictures differ in colour; both sets have the layer object and are of one size, and of the other layers those
- * count that both have. Objects are the same by their names; those without one, or with one name for several, by
- * kind and place in the picture, then by their order. The first `room` changes, those of most pixels first; *count
- * is how many there are. They point into the layers. False where the layers do not fit, or there is no memory. */
-bool monge_changes(const struct monge_layers *older, const struct monge_layers *newer, const uint8_t *differs,
-                   struct monge_change *changes, size_t room, size_t *count);
+/* Tells what changed from the older picture to the newer, of which the pixels differ that monge_compare counts as
+ * `beyond`. Both sets of layers have the layer object and are of the size of the pictures; of the other layers those
+ * count that both have. Objects are the same by their names; those without one, or with one name for several, by kind
+ * and by what is seen at the same place, then by their order. The first `room` changes, those of most pixels first;
+ * *count is how many there are. They point into the layers. False: diag says why, as a failure. */
+bool monge_changes(struct monge_picture *older, const struct monge_layers *older_layers,
+                   struct monge_picture *newer, const struct monge_layers *newer_layers,
+                   const struct monge_compare *how, struct monge_change *changes, size_t room, size_t *count,
+                   struct monge_diagnostics *diag);
 
 /* The change as a text: `object "lid" (scene.yaml:41): geometry moved`. As snprintf, with its result. */
 size_t monge_change_text(const struct monge_change *change, char *text, size_t size);

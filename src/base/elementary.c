@@ -6,6 +6,16 @@
 static const double degrees_per_radian = 57.29577951308232; /* 180 / pi */
 
 double elementary_pow(double base, double exponent) { return Sleef_cinz_powd1_u10purec(base, exponent); }
+/* Of the deterministic functions those for four numbers give the bits of those for one. */
+void elementary_powf(size_t count, const float *base, const float *exponent, float *out) {
+    size_t i = 0;
+#ifdef __SSE2__
+    for (; i + 4 <= count; i += 4)
+        _mm_storeu_ps(out + i, Sleef_cinz_powf4_u10sse2(_mm_loadu_ps(base + i), _mm_loadu_ps(exponent + i)));
+#endif
+    for (; i < count; i++) out[i] = Sleef_cinz_powf1_u10purec(base[i], exponent[i]);
+}
+
 double elementary_exp(double x) { return Sleef_cinz_expd1_u10purec(x); }
 double elementary_log(double x) { return Sleef_cinz_logd1_u10purec(x); }
 double elementary_log2(double x) { return Sleef_cinz_log2d1_u10purec(x); }

@@ -1,13 +1,11 @@
-/* What changed between two pictures, object by object. Each pixel gets a cause: the object that moved there or away,
- * or the object that is there as before and looks different. A pixel at an edge mixes what is on both sides of it, so
- * its colour alone does not accuse an object: it goes with what is found in the inside of those around. */
+#include "image/changes.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/arena.h"
-#include "render/layers.h"
 
 enum { OLDER, NEWER, SIDES };
 
@@ -22,7 +20,7 @@ struct track {
     struct monge_region bounds[MONGE_CHANGES];
 };
 
-struct comparison {
+struct inquiry {
     const struct monge_layers *layers[SIDES];
     const uint8_t *differs;
     struct arena *arena;
@@ -34,7 +32,7 @@ struct comparison {
     uint8_t *kind;           /* enum monge_change_kind of that */
 };
 
-static bool both(const struct comparison *c, enum monge_layer layer) {
+static bool both(const struct inquiry *c, enum monge_layer layer) {
     return (c->layers[OLDER]->set & c->layers[NEWER]->set) >> layer & 1;
 }
 
@@ -51,7 +49,7 @@ static bool same_normal(const uint16_t *a, const uint16_t *b) {
     return true;
 }
 
-static bool same_geometry(const struct comparison *c, size_t i) {
+static bool same_geometry(const struct inquiry *c, size_t i) {
     const struct monge_layers *a = c->layers[OLDER], *b = c->layers[NEWER];
     return (!both(c, MONGE_LAYER_DEPTH) || same_depth(a->depth[i], b->depth[i])) &&
            (!both(c, MONGE_LAYER_NORMAL) || same_normal(a->normals + 3 * i, b->normals + 3 * i));
@@ -62,7 +60,7 @@ static bool same_geometry(const struct comparison *c, size_t i) {
  * same places, of the same key or, as it may have been renamed, of another; and at last by their order. */
 
 struct matching {
-    struct comparison *comparison;
+    struct inquiry *inquiry;
     const struct layer_entries *entries[SIDES];
     uint32_t *partner[SIDES]; /* by index of entry: that of the other side, or NOBODY */
     uint32_t *alike[SIDES];   /* by index of entry: a number for its key, the same on both sides */
@@ -83,7 +81,7 @@ static int compare_keys(const void *a, const void *b) {
 
 static void number_keys(struct matching *m) {
     const uint32_t total = m->entries[OLDER]->count + m->entries[NEWER]->count;
-    struct keyed *sorted = arena_array(m->comparison->arena, (size_t)total + 1, sizeof *sorted), *to = sorted;
+    struct keyed *sorted = arena_array(m->inquiry->arena, (size_t)total + 1, sizeof *sorted), *to = sorted;
     for (int side = 0; side < SIDES; side++)
         for (uint32_t i = 0; i < m->entries[side]->count; i++)
             *to++ = (struct keyed){&m->entries[side]->list[i], &m->alike[side][i]};
@@ -105,7 +103,7 @@ static bool is_free(const struct matching *m, int side, uint32_t index) {
 }
 
 static void match_single_keys(struct matching *m) {
-    struct arena *arena = m->comparison->arena;
+    struct arena *arena = m->inquiry->arena;
     uint32_t *often[SIDES], *which[SIDES];
     for (int side = 0; side < SIDES; side++) {
         often[side] = arena_array(arena, m->key_count, sizeof *often[side]);
@@ -152,7 +150,7 @@ static size_t merge_overlaps(struct overlap *list, size_t count) {
 
 /* Runs of pixels within a row are one pair from the start: a picture has few of them. */
 static struct overlap *list_overlaps(const struct matching *m, size_t *count) {
-    const struct comparison *c = m->comparison;
+    const struct inquiry *c = m->inquiry;
     const size_t pixels = (size_t)c->width * c->height;
     struct overlap *list = NULL;
     size_t room = 0;
@@ -191,7 +189,7 @@ static void match_overlaps(struct matching *m) {
 
 static void match_in_order(struct matching *m) {
     const uint32_t count[SIDES] = {m->entries[OLDER]->count, m->entries[NEWER]->count};
-    uint32_t *next = arena_array(m->comparison->arena, m->key_count, sizeof *next); /* newer one to look at */
+    uint32_t *next = arena_array(m->inquiry->arena, m->key_count, sizeof *next); /* newer one to look at */
     for (uint32_t a = 0; a < count[OLDER]; a++) {
         if (!is_free(m, OLDER, a)) continue;
         const uint32_t key = m->alike[OLDER][a];
@@ -203,7 +201,7 @@ static void match_in_order(struct matching *m) {
 }
 
 /* Makes the tracks, and gives each pixel its own. */
-static void make_tracks(struct comparison *c, const struct matching *m) {
+static void make_tracks(struct inquiry *c, const struct matching *m) {
     const uint32_t older = m->entries[OLDER]->count, newer = m->entries[NEWER]->count;
     uint32_t *track_of = arena_array(c->arena, newer + 1, sizeof *track_of);
     c->tracks = arena_array(c->arena, older + newer + 1, sizeof *c->tracks);
@@ -220,8 +218,8 @@ static void make_tracks(struct comparison *c, const struct matching *m) {
         if (c->object[NEWER][i]) c->object[NEWER][i] = track_of[c->object[NEWER][i] - 1];
 }
 
-static void match_objects(struct comparison *c) {
-    struct matching m = {.comparison = c};
+static void match_objects(struct inquiry *c) {
+    struct matching m = {.inquiry = c};
     for (int side = 0; side < SIDES; side++) {
         m.entries[side] = &c->layers[side]->entries[MONGE_LAYER_OBJECT];
         const uint32_t count = m.entries[side]->count;
@@ -238,7 +236,7 @@ static void match_objects(struct comparison *c) {
 
 /* The index of each pixel's entry, from 1; 0 in the background. False where there is a number that the table does
  * not have. */
-static bool index_objects(struct comparison *c, int side) {
+static bool index_objects(struct inquiry *c, int side) {
     const struct monge_layers *layers = c->layers[side];
     const struct monge_entry *list = layers->entries[MONGE_LAYER_OBJECT].list, *last = NULL;
     for (size_t i = 0; i < layers_pixels(layers); i++) {
@@ -258,13 +256,13 @@ struct around {
     uint32_t x0, y0, x1, y1;
 };
 
-static struct around around_of(const struct comparison *c, uint32_t x, uint32_t y) {
+static struct around around_of(const struct inquiry *c, uint32_t x, uint32_t y) {
     return (struct around){x ? x - 1 : 0, y ? y - 1 : 0, x + 1 < c->width ? x + 1 : x,
                            y + 1 < c->height ? y + 1 : y};
 }
 
 /* Whether another object is beside the pixel, in either picture. */
-static bool at_edge(const struct comparison *c, uint32_t x, uint32_t y) {
+static bool at_edge(const struct inquiry *c, uint32_t x, uint32_t y) {
     const struct around n = around_of(c, x, y);
     const uint32_t own = c->object[OLDER][(size_t)y * c->width + x];
     for (uint32_t v = n.y0; v <= n.y1; v++)
@@ -276,7 +274,7 @@ static bool at_edge(const struct comparison *c, uint32_t x, uint32_t y) {
 }
 
 /* Whether a shadow ends beside the pixel, in either picture. */
-static bool at_shadow_edge(const struct comparison *c, uint32_t x, uint32_t y) {
+static bool at_shadow_edge(const struct inquiry *c, uint32_t x, uint32_t y) {
     const struct around n = around_of(c, x, y);
     const size_t at = (size_t)y * c->width + x;
     if (!both(c, MONGE_LAYER_SHADOW)) return false;
@@ -289,7 +287,7 @@ static bool at_shadow_edge(const struct comparison *c, uint32_t x, uint32_t y) {
     return false;
 }
 
-static void find_insides(struct comparison *c) {
+static void find_insides(struct inquiry *c) {
     for (uint32_t y = 0; y < c->height; y++)
         for (uint32_t x = 0; x < c->width; x++) {
             struct track *track = &c->tracks[c->object[OLDER][(size_t)y * c->width + x]];
@@ -300,7 +298,7 @@ static void find_insides(struct comparison *c) {
 /* ---- Causes ---- */
 
 /* Of two objects that stand at a pixel before and after: the one in front has come, or gone. */
-static uint32_t one_in_front(const struct comparison *c, size_t i) {
+static uint32_t one_in_front(const struct inquiry *c, size_t i) {
     const uint32_t a = c->object[OLDER][i], b = c->object[NEWER][i];
     if (!a || !b) return a ? a : b;
     if (both(c, MONGE_LAYER_DEPTH))
@@ -309,7 +307,7 @@ static uint32_t one_in_front(const struct comparison *c, size_t i) {
 }
 
 /* Materials without a name are told apart by nothing that stays. */
-static bool same_material(const struct comparison *c, size_t i) {
+static bool same_material(const struct inquiry *c, size_t i) {
     const char *name[SIDES];
     if (!both(c, MONGE_LAYER_MATERIAL)) return true;
     for (int side = 0; side < SIDES; side++) {
@@ -322,20 +320,20 @@ static bool same_material(const struct comparison *c, size_t i) {
 }
 
 /* Why a pixel of an object that has not moved is of another colour. */
-static enum monge_change_kind kind_of(const struct comparison *c, size_t i) {
+static enum monge_change_kind kind_of(const struct inquiry *c, size_t i) {
     if (!same_material(c, i)) return MONGE_CHANGE_MATERIAL;
     if (both(c, MONGE_LAYER_SHADOW) && c->layers[OLDER]->lights[i] != c->layers[NEWER]->lights[i])
         return MONGE_CHANGE_SHADOW;
     return MONGE_CHANGE_SHADING;
 }
 
-static void accuse(struct comparison *c, size_t i, uint32_t track, enum monge_change_kind kind) {
+static void accuse(struct inquiry *c, size_t i, uint32_t track, enum monge_change_kind kind) {
     c->cause[i] = track;
     c->kind[i] = (uint8_t)kind;
 }
 
 /* Each pixel by itself. */
-static void find_causes(struct comparison *c) {
+static void find_causes(struct inquiry *c) {
     for (uint32_t y = 0; y < c->height; y++)
         for (uint32_t x = 0; x < c->width; x++) {
             const size_t i = (size_t)y * c->width + x;
@@ -363,7 +361,7 @@ static enum monge_change_kind main_kind(const struct track *track) {
 }
 
 /* The object beside a pixel that has changed most surely, or NOBODY. */
-static uint32_t changed_beside(const struct comparison *c, uint32_t x, uint32_t y) {
+static uint32_t changed_beside(const struct inquiry *c, uint32_t x, uint32_t y) {
     const struct around n = around_of(c, x, y);
     const uint32_t own = c->object[OLDER][(size_t)y * c->width + x];
     uint32_t best = NOBODY;
@@ -382,7 +380,7 @@ static uint32_t changed_beside(const struct comparison *c, uint32_t x, uint32_t 
 }
 
 /* A pixel that differs by its colour alone, and whose own object has no firm pixel of that kind. */
-static void settle_edge(struct comparison *c, uint32_t x, uint32_t y) {
+static void settle_edge(struct inquiry *c, uint32_t x, uint32_t y) {
     const size_t i = (size_t)y * c->width + x;
     const struct track *own = &c->tracks[c->cause[i]];
     if (own->firm[c->kind[i]]) return;
@@ -394,7 +392,7 @@ static void settle_edge(struct comparison *c, uint32_t x, uint32_t y) {
     if (other != NOBODY) accuse(c, i, other, main_kind(&c->tracks[other]));
 }
 
-static void settle_edges(struct comparison *c) {
+static void settle_edges(struct inquiry *c) {
     for (uint32_t y = 0; y < c->height; y++)
         for (uint32_t x = 0; x < c->width; x++)
             if (c->cause[(size_t)y * c->width + x] != NOBODY) settle_edge(c, x, y);
@@ -431,7 +429,7 @@ static void sum_up(struct track *track) {
     if (!track->entry[NEWER]) move_pixels(track, MONGE_CHANGE_GEOMETRY, MONGE_CHANGE_DISAPPEARED);
 }
 
-static void count_pixels(struct comparison *c) {
+static void count_pixels(struct inquiry *c) {
     for (uint32_t y = 0; y < c->height; y++)
         for (uint32_t x = 0; x < c->width; x++) {
             const size_t i = (size_t)y * c->width + x;
@@ -451,7 +449,7 @@ static int compare_changes(const void *a, const void *b) {
     return (p->kind > q->kind) - (p->kind < q->kind);
 }
 
-static size_t list_changes(const struct comparison *c, struct monge_change *changes, size_t room) {
+static size_t list_changes(const struct inquiry *c, struct monge_change *changes, size_t room) {
     struct monge_change *all =
         arena_array(c->arena, (size_t)c->track_count * MONGE_CHANGES, sizeof *all);
     size_t count = 0;
@@ -470,7 +468,7 @@ static size_t list_changes(const struct comparison *c, struct monge_change *chan
 
 /* ---- All of it ---- */
 
-static bool compare(struct comparison *c, struct monge_change *changes, size_t room, size_t *count) {
+static bool compare(struct inquiry *c, struct monge_change *changes, size_t room, size_t *count) {
     const size_t pixels = (size_t)c->width * c->height;
     for (int side = 0; side < SIDES; side++) {
         c->object[side] = arena_array(c->arena, pixels, sizeof *c->object[side]);
@@ -487,11 +485,11 @@ static bool compare(struct comparison *c, struct monge_change *changes, size_t r
     return true;
 }
 
-bool monge_changes(const struct monge_layers *older, const struct monge_layers *newer, const uint8_t *differs,
-                   struct monge_change *changes, size_t room, size_t *count) {
+bool changes_find(const struct monge_layers *older, const struct monge_layers *newer, const uint8_t *differs,
+                  struct monge_change *changes, size_t room, size_t *count) {
     jmp_buf full;
     struct arena arena = {.on_full = &full};
-    struct comparison c = {.layers = {older, newer},
+    struct inquiry c = {.layers = {older, newer},
                            .differs = differs,
                            .arena = &arena,
                            .width = older->region.width,

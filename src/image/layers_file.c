@@ -7,6 +7,7 @@
 
 #include "image/layer_table.h"
 #include "image/pfm.h"
+#include "image/picture.h"
 #include "image/samples.h"
 
 /* ---- Names ---- */
@@ -131,49 +132,73 @@ static void read_region(struct monge_layers *layers, const char *text) {
 
 static bool read_table(struct monge_layers *layers, enum monge_layer layer, const char *text) {
     jmp_buf full;
-    bool good = false;
     layers->arena.on_full = &full;
-    if (setjmp(full) == 0) good = layer_table_read(text, &layers->arena, &layers->entries[layer]);
+    const bool good = setjmp(full) == 0 && layer_table_read(text, &layers->arena, &layers->entries[layer]);
     layers->arena.on_full = NULL;
     return good;
 }
 
-static bool take_numbers(struct reading *reading, enum monge_layer layer, const char *path,
-                         const struct samples *samples) {
+static unsigned sample_at(const struct monge_picture *picture, uint32_t y, size_t i) {
+    const uint8_t *at = picture_row(picture, y) + 2 * i;
+    return (unsigned)at[0] << 8 | at[1];
+}
+
+static void take_normals(uint16_t *normals, const struct monge_picture *picture) {
+    for (uint32_t y = 0; y < picture->height; y++)
+        for (size_t i = 0; i < 3 * (size_t)picture->width; i++)
+            *normals++ = (uint16_t)sample_at(picture, y, i);
+}
+
+static void take_numbers(struct monge_layers *layers, enum monge_layer layer,
+                         const struct monge_picture *picture) {
+    const unsigned channels = picture->channels;
+    size_t at = 0;
+    for (uint32_t y = 0; y < picture->height; y++)
+        for (size_t x = 0; x < picture->width; x++) {
+            uint64_t number = 0;
+            for (unsigned c = 0; c < channels; c++)
+                number |= (uint64_t)sample_at(picture, y, channels * x + c) << (16 * c);
+            set_number(layers, layer, at++, number);
+        }
+}
+
+static const char *text_of(const struct monge_picture *picture, const char *key) {
+    for (size_t i = 0; i < picture->text_count; i++)
+        if (strcmp(picture->texts[i].key, key) == 0) return picture->texts[i].text;
+    return NULL;
+}
+
+static bool take_picture(struct reading *reading, enum monge_layer layer, const char *path,
+                         const struct monge_picture *picture) {
+    const char *table = text_of(picture, "monge:table");
+    if (picture->bits != 16 || (picture->channels != 1 && picture->channels != 3))
+        return fail(reading, path, "a layer has 16 bits, grey or RGB");
+    if (layer == MONGE_LAYER_NORMAL && picture->channels != 3)
+        return fail(reading, path, "normals have three channels");
+    if (!add_layer(reading, layer, path, picture->width, picture->height)) return false;
     struct monge_layers *layers = reading->layers;
-    const char *table = samples->texts[0].text;
-    for (size_t i = 0; i < layers_pixels(layers); i++) {
-        uint64_t number = 0;
-        for (unsigned c = 0; c < samples->channels; c++)
-            number |= (uint64_t)samples->values[samples->channels * i + c] << (16 * c);
-        set_number(layers, layer, i, number);
+    read_region(layers, text_of(picture, "monge:region"));
+    if (layer == MONGE_LAYER_NORMAL) {
+        take_normals(layers->normals, picture);
+        return true;
     }
+    take_numbers(layers, layer, picture);
     if (layer == MONGE_LAYER_SHADOW) {
-        layers->light_count = samples->channels == 3 ? MONGE_LAYER_LIGHTS : 16;
+        layers->light_count = 16 * picture->channels;
         return true;
     }
     return (table && read_table(layers, layer, table)) ||
            fail(reading, path, "it has no table of what its numbers stand for");
 }
 
-static bool take_samples(struct reading *reading, enum monge_layer layer, const char *path,
-                         const struct samples *samples) {
-    if (layer == MONGE_LAYER_NORMAL && samples->channels != 3)
-        return fail(reading, path, "normals have three channels");
-    if (!add_layer(reading, layer, path, samples->width, samples->height)) return false;
-    read_region(reading->layers, samples->texts[1].text);
-    if (layer != MONGE_LAYER_NORMAL) return take_numbers(reading, layer, path, samples);
-    memcpy(reading->layers->normals, samples->values,
-           3 * layers_pixels(reading->layers) * sizeof *samples->values);
-    return true;
-}
-
-static bool read_samples(struct reading *reading, enum monge_layer layer, const char *path) {
-    char table[] = "monge:table", region[] = "monge:region";
-    struct samples samples = {.texts = {{table, NULL}, {region, NULL}}, .text_count = 2};
-    const bool good = samples_read(path, MONGE_MAX_PIXELS, &samples, reading->message, reading->size) &&
-                      take_samples(reading, layer, path, &samples);
-    samples_free(&samples);
+static bool read_picture(struct reading *reading, enum monge_layer layer, const char *path) {
+    struct monge_picture picture = {.name = NULL};
+    char reason[PICTURE_REASON_SIZE] = "";
+    bool system;
+    const bool good = picture_open(&picture, path, reason, &system) && picture_decode(&picture, reason)
+                          ? take_picture(reading, layer, path, &picture)
+                          : fail(reading, path, reason);
+    picture_close(&picture);
     return good;
 }
 
@@ -195,7 +220,7 @@ static bool read_layer(struct reading *reading, enum monge_layer layer, const ch
     monge_layer_path(layer, picture, path, length);
     const bool there = access(path, F_OK) == 0;
     const bool good =
-        !there || (layer == MONGE_LAYER_DEPTH ? read_depth(reading, path) : read_samples(reading, layer, path));
+        !there || (layer == MONGE_LAYER_DEPTH ? read_depth(reading, path) : read_picture(reading, layer, path));
     free(path);
     return good;
 }

@@ -11,7 +11,7 @@ enum { SAMPLES_TEXTS = 4 };
 struct samples {
     uint32_t width, height;
     unsigned channels; /* 1 or 3 */
-    uint16_t *values;  /* row by row from the top left; owned by what samples_read has made */
+    uint16_t *values;  /* row by row from the top left */
     struct samples_text {
         char *key, *text; /* a keyword of PNG, and UTF-8; long ones are compressed */
     } texts[SAMPLES_TEXTS];
@@ -20,10 +20,5 @@ struct samples {
 
 /* Writes the file, complete or not at all, as png_write_film. False: the reason is in `message`. */
 bool samples_write(const char *path, const struct samples *samples, char *message, size_t size);
-
-/* Reads a file of at most `most` pixels, of grey or RGB of 16 bits, with the texts that are asked for by the keys of
- * *samples, each NULL where it is not there. False: the reason is in `message`. Either way to be freed. */
-bool samples_read(const char *path, uint64_t most, struct samples *samples, char *message, size_t size);
-void samples_free(struct samples *samples);
 
 #endif

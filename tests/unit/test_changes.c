@@ -1,8 +1,8 @@
 /* What is told of two renderings of scenes that differ in one thing. */
 #include <string.h>
 
+#include "image/changes.h"
 #include "image/encode.h"
-#include "monge.h"
 #include "near.h"
 
 /* ---- Pictures ---- */
@@ -160,7 +160,7 @@ static void tell(const struct monge_layers *older, const struct monge_layers *ne
                  char *text, size_t size) {
     struct monge_change changes[ROOM];
     size_t count = 0, length = 0;
-    assert_true(monge_changes(older, newer, differs, changes, ROOM, &count));
+    assert_true(changes_find(older, newer, differs, changes, ROOM, &count));
     assert_true(count <= ROOM);
     *text = '\0';
     for (size_t i = 0; i < count; i++) {
@@ -198,13 +198,13 @@ static void test_bounds(void **state) {
     struct monge_change changes[2];
     size_t count = 0;
     find_differences(&a, &b, differs);
-    assert_true(monge_changes(a.layers, b.layers, differs, changes, 1, &count));
+    assert_true(changes_find(a.layers, b.layers, differs, changes, 1, &count));
     assert_int_equal(count, 2);
     assert_string_equal(changes[0].object->kind, "square");
     assert_int_equal(changes[0].pixels, 400);
     const struct monge_region r = changes[0].bounds; /* ten pixels a unit, (48, 36) in the middle */
     assert_true(r.x == 8 && r.y == 26 && r.width == 20 && r.height == 20);
-    assert_true(monge_changes(a.layers, b.layers, differs, changes, 2, &count));
+    assert_true(changes_find(a.layers, b.layers, differs, changes, 2, &count));
     assert_string_equal(changes[1].object->kind, "sphere");
     assert_true(changes[1].bounds.y == 1 && changes[1].bounds.height == 20);
     assert_true(changes[1].bounds.x == 73 && changes[1].bounds.width == 10);
@@ -219,14 +219,14 @@ static void test_refused(void **state) {
                     b = render(HEAD SCENE BALL, 1 << MONGE_LAYER_DEPTH);
     struct monge_change change;
     size_t count;
-    assert_true(monge_changes(a.layers, a.layers, differs, &change, 1, &count));
-    assert_false(monge_changes(a.layers, b.layers, differs, &change, 1, &count));
+    assert_true(changes_find(a.layers, a.layers, differs, &change, 1, &count));
+    assert_false(changes_find(a.layers, b.layers, differs, &change, 1, &count));
     struct monge_diagnostics *diag = monge_diagnostics_new();
     struct monge_scene *scene = monge_load_memory("t", HEAD SCENE BALL, strlen(HEAD SCENE BALL), NULL, diag);
     const struct monge_settings settings = monge_scene_settings(scene);
     const struct monge_region region = {0, 0, 96, 71};
     struct monge_layers *smaller = monge_render_layers(scene, &settings, &region, MONGE_LAYERS_ALL, NULL);
-    assert_false(monge_changes(a.layers, smaller, differs, &change, 1, &count));
+    assert_false(changes_find(a.layers, smaller, differs, &change, 1, &count));
     monge_layers_free(smaller);
     monge_scene_free(scene);
     monge_diagnostics_free(diag);
