@@ -1,5 +1,6 @@
 /* The library's face: the files of layers, and what changed between pictures. */
 #include <stdlib.h>
+#include <string.h>
 
 #include "face.h"
 #include "image/changes.h"
@@ -45,8 +46,10 @@ static uint8_t *find_differences(struct monge_picture *older, struct monge_pictu
 }
 
 static bool fits(const struct monge_layers *layers, const struct monge_picture *picture) {
+    const char *scene = monge_picture_text(picture, "monge:scene");
     return layers->region.width == picture->width && layers->region.height == picture->height &&
-           layers->ids[MONGE_LAYER_OBJECT];
+           layers->ids[MONGE_LAYER_OBJECT] &&
+           (!scene || !*layers->scene || strcmp(layers->scene, scene) == 0);
 }
 
 static bool report(struct diagnostics *diag, const struct monge_picture *about, const char *reason) {
@@ -62,8 +65,8 @@ bool monge_changes(struct monge_picture *older, const struct monge_layers *older
     const struct monge_picture *about = newer;
     if (older->width != newer->width || older->height != newer->height)
         return report(&diag->list, newer, "the pictures are not of one size");
-    if (!fits(older_layers, older)) return report(&diag->list, older, "its passes do not fit it");
-    if (!fits(newer_layers, newer)) return report(&diag->list, newer, "its passes do not fit it");
+    if (!fits(older_layers, older)) return report(&diag->list, older, "its passes are not of this picture");
+    if (!fits(newer_layers, newer)) return report(&diag->list, newer, "its passes are not of this picture");
     uint8_t *differs = find_differences(older, newer, how, reason, &about);
     if (!differs) return report(&diag->list, about, reason);
     const bool found = changes_find(older_layers, newer_layers, differs, changes, room, count);

@@ -128,6 +128,8 @@ struct monge_layers *monge_render_layers(struct monge_scene *scene, const struct
     if (!monge_scene_prepare(scene)) return NULL;
     struct monge_layers *layers = layers_new(settings->width, settings->height, *region, wanted);
     if (!layers) return NULL;
+    const struct hash hash = fingerprint(&scene->scene, settings);
+    hash_text(&hash, layers->scene);
     if (render_layers(&scene->scene, scene->accel, settings, job ? job : &no_job, layers)) return layers;
     monge_layers_free(layers);
     return NULL;

@@ -49,10 +49,12 @@ static bool write_samples(const struct monge_layers *layers, const char *path, s
                           char *message, size_t size) {
     const struct monge_region r = layers->region;
     char software[] = "Monge " MONGE_VERSION, software_key[] = "Software", region_key[] = "monge:region";
-    char region[80];
+    char scene_key[] = "monge:scene", scene[HASH_TEXT_SIZE], region[80];
     samples->width = r.width;
     samples->height = r.height;
     samples->texts[samples->text_count++] = (struct samples_text){software_key, software};
+    memcpy(scene, layers->scene, sizeof scene);
+    if (*scene) samples->texts[samples->text_count++] = (struct samples_text){scene_key, scene};
     snprintf(region, sizeof region, "%u,%u,%u,%u of %ux%u", r.x, r.y, r.width, r.height, layers->width,
              layers->height);
     if (r.width != layers->width || r.height != layers->height)
@@ -118,6 +120,14 @@ static bool add_layer(struct reading *reading, enum monge_layer layer, const cha
     return layers_add(layers, layer) || fail(reading, path, "out of memory");
 }
 
+/* Whether the layer is of the same picture as those before it. */
+static bool take_scene(struct monge_layers *layers, const char *scene) {
+    if (!scene) return true;
+    if (*layers->scene) return strcmp(layers->scene, scene) == 0;
+    snprintf(layers->scene, sizeof layers->scene, "%s", scene);
+    return true;
+}
+
 /* Where the pixels are in the whole picture. */
 static void read_region(struct monge_layers *layers, const char *text) {
     struct monge_region r;
@@ -177,6 +187,8 @@ static bool take_picture(struct reading *reading, enum monge_layer layer, const 
         return fail(reading, path, "normals have three channels");
     if (!add_layer(reading, layer, path, picture->width, picture->height)) return false;
     struct monge_layers *layers = reading->layers;
+    if (!take_scene(layers, text_of(picture, "monge:scene")))
+        return fail(reading, path, "it is of another rendering than the other layers");
     read_region(layers, text_of(picture, "monge:region"));
     if (layer == MONGE_LAYER_NORMAL) {
         take_normals(layers->normals, picture);

@@ -25,7 +25,8 @@ struct monge_layers {
     float *depth;                 /* as monge.h has them */
     uint16_t *normals;
     uint64_t *lights;
-    uint32_t light_count; /* point lights of the picture */
+    uint32_t light_count;       /* point lights of the picture */
+    char scene[HASH_TEXT_SIZE]; /* the fingerprint of its picture, in text; "": not known */
     struct arena arena;
 };
 

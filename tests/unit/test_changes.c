@@ -1,5 +1,6 @@
 /* What is told of two renderings of scenes that differ in one thing. */
 #include <string.h>
+#include <unistd.h>
 
 #include "image/changes.h"
 #include "image/encode.h"
@@ -234,6 +235,63 @@ static void test_refused(void **state) {
     forget(&b);
 }
 
+/* ---- From files ---- */
+
+static int enter_folder(void **state) {
+    char *folder = strdup("/tmp/monge-changes-XXXXXX");
+    *state = folder;
+    return mkdtemp(folder) && chdir(folder) == 0 ? 0 : -1;
+}
+
+static int leave_folder(void **state) {
+    char command[100];
+    snprintf(command, sizeof command, "rm -r %s", (char *)*state);
+    const int status = chdir("/") || system(command);
+    free(*state);
+    return status;
+}
+
+static void write_files(const struct rendered *r, const char *picture, struct monge_diagnostics *diag) {
+    assert_true(monge_film_write_png(r->film, picture, diag));
+    for (enum monge_layer layer = 0; layer < MONGE_LAYERS; layer++) {
+        char path[100];
+        monge_layer_path(layer, picture, path, sizeof path);
+        assert_true(monge_layer_write(r->layers, layer, path, diag));
+    }
+}
+
+static void test_files(void **state) {
+    (void)state;
+    const struct row *row = &rows[1];
+    struct rendered a = render(row->older, MONGE_LAYERS_ALL), b = render(row->newer, MONGE_LAYERS_ALL);
+    struct monge_diagnostics *diag = monge_diagnostics_new();
+    write_files(&a, "a.png", diag);
+    write_files(&b, "b.png", diag);
+    struct monge_picture *p = monge_picture_read("a.png", diag), *q = monge_picture_read("b.png", diag);
+    struct monge_layers *of_p = monge_layers_read("a.png", MONGE_LAYERS_ALL, diag),
+                        *of_q = monge_layers_read("b.png", MONGE_LAYERS_ALL, diag);
+    struct monge_change changes[ROOM];
+    const struct monge_compare how = {.max_delta = 0.0}, loose = {.max_delta = 1.0};
+    size_t count;
+    assert_true(monge_changes(p, of_p, q, of_q, &how, changes, ROOM, &count, diag));
+    assert_int_equal(count, 2);
+    assert_string_equal(changes[0].object->name, "ball");
+    assert_int_equal(changes[0].kind, MONGE_CHANGE_GEOMETRY);
+    assert_int_equal(changes[1].kind, MONGE_CHANGE_SHADOW);
+    assert_true(monge_changes(p, of_p, q, of_q, &loose, changes, ROOM, &count, diag));
+    assert_int_equal(count, 1);
+    assert_int_equal(monge_diagnostics_failures(diag), 0);
+    assert_false(monge_changes(p, of_p, q, of_p, &how, changes, ROOM, &count, diag)); /* passes of another picture */
+    assert_int_equal(monge_diagnostics_failures(diag), 1);
+    monge_layers_free(of_p);
+    monge_layers_free(of_q);
+    monge_picture_free(p);
+    monge_picture_free(q);
+    monge_diagnostics_free(diag);
+    forget(&a);
+    forget(&b);
+}
+
 /* ---- Why ---- */
 
 static void assert_causes(struct monge_stamp older, struct monge_stamp newer, const char *want) {
@@ -268,7 +326,8 @@ int main(void) {
     for (size_t i = 0; i < COUNT(rows); i++)
         tests[count++] = (struct CMUnitTest){rows[i].name, test_row, NULL, NULL, &rows[i]};
     const struct CMUnitTest others[] = {cmocka_unit_test(test_bounds), cmocka_unit_test(test_refused),
-                                        cmocka_unit_test(test_causes)};
+                                        cmocka_unit_test(test_causes),
+                                        cmocka_unit_test_setup_teardown(test_files, enter_folder, leave_folder)};
     for (size_t i = 0; i < COUNT(others); i++) tests[count++] = others[i];
     return _cmocka_run_group_tests("changes", tests, count, NULL, NULL);
 }
