@@ -427,7 +427,7 @@ struct monge_change {
     enum monge_change_kind kind;
     const struct monge_entry *object; /* of the newer layers, of the older where it is gone; NULL: the background */
     uint64_t pixels;                  /* that this made different */
-    struct monge_region bounds;       /* around them, from the top left corner of the pictures */
+    struct monge_region bounds;       /* around them, from the top left corner; of what has moved, around where */
 };
 
 /* Tells what changed from the older picture to the newer, of which the pixels differ that monge_compare counts as

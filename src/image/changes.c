@@ -388,7 +388,7 @@ static void settle_edge(struct inquiry *c, uint32_t x, uint32_t y) {
         c->kind[i] = MONGE_CHANGE_SHADOW;
         return;
     }
-    const uint32_t other = at_edge(c, x, y) ? changed_beside(c, x, y) : NOBODY;
+    const uint32_t other = changed_beside(c, x, y);
     if (other != NOBODY) accuse(c, i, other, main_kind(&c->tracks[other]));
 }
 
@@ -400,33 +400,30 @@ static void settle_edges(struct inquiry *c) {
 
 /* ---- Counting ---- */
 
-static void extend(struct monge_region *bounds, struct monge_region by) {
-    const uint32_t x1 = bounds->x + bounds->width, y1 = bounds->y + bounds->height;
-    const uint32_t u1 = by.x + by.width, v1 = by.y + by.height;
-    if (!by.width) return;
-    if (!bounds->width) {
-        *bounds = by;
-        return;
-    }
-    if (by.x < bounds->x) bounds->x = by.x;
-    if (by.y < bounds->y) bounds->y = by.y;
-    bounds->width = (u1 > x1 ? u1 : x1) - bounds->x;
-    bounds->height = (v1 > y1 ? v1 : y1) - bounds->y;
+static void extend(struct monge_region *bounds, uint32_t x, uint32_t y) {
+    if (!bounds->width) *bounds = (struct monge_region){x, y, 1, 1};
+    if (x < bounds->x) bounds->width += bounds->x - x, bounds->x = x;
+    if (y < bounds->y) bounds->height += bounds->y - y, bounds->y = y;
+    if (x - bounds->x >= bounds->width) bounds->width = x - bounds->x + 1;
+    if (y - bounds->y >= bounds->height) bounds->height = y - bounds->y + 1;
 }
 
 static void move_pixels(struct track *track, enum monge_change_kind from, enum monge_change_kind to) {
     track->pixels[to] += track->pixels[from];
-    extend(&track->bounds[to], track->bounds[from]);
     track->pixels[from] = 0;
 }
 
-/* What looks different of an object that has moved is because it has. */
+/* What looks different of an object that has moved is because it has; its bounds are where it has moved. */
 static void sum_up(struct track *track) {
     if (!track->pixels[MONGE_CHANGE_GEOMETRY]) return;
     move_pixels(track, MONGE_CHANGE_SHADOW, MONGE_CHANGE_GEOMETRY);
     move_pixels(track, MONGE_CHANGE_SHADING, MONGE_CHANGE_GEOMETRY);
-    if (!track->entry[OLDER]) move_pixels(track, MONGE_CHANGE_GEOMETRY, MONGE_CHANGE_APPEARED);
-    if (!track->entry[NEWER]) move_pixels(track, MONGE_CHANGE_GEOMETRY, MONGE_CHANGE_DISAPPEARED);
+    const enum monge_change_kind kind = !track->entry[OLDER]   ? MONGE_CHANGE_APPEARED
+                                        : !track->entry[NEWER] ? MONGE_CHANGE_DISAPPEARED
+                                                               : MONGE_CHANGE_GEOMETRY;
+    if (kind == MONGE_CHANGE_GEOMETRY) return;
+    track->bounds[kind] = track->bounds[MONGE_CHANGE_GEOMETRY];
+    move_pixels(track, MONGE_CHANGE_GEOMETRY, kind);
 }
 
 static void count_pixels(struct inquiry *c) {
@@ -436,7 +433,7 @@ static void count_pixels(struct inquiry *c) {
             if (c->cause[i] == NOBODY) continue;
             struct track *track = &c->tracks[c->cause[i]];
             track->pixels[c->kind[i]]++;
-            extend(&track->bounds[c->kind[i]], (struct monge_region){x, y, 1, 1});
+            extend(&track->bounds[c->kind[i]], x, y);
         }
     for (uint32_t t = 0; t < c->track_count; t++) sum_up(&c->tracks[t]);
 }

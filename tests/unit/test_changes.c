@@ -150,6 +150,29 @@ static struct row rows[] = {
                 "  - {name: ball, sphere: {center: [0, 1, 0], radius: 0.7}}\n",
      HEAD SCENE "  - {name: ball, sphere: {center: [0, 1, 0], radius: 0.7}}\n",
      "object \"ball\" (scene.yaml:4): disappeared\n", 0},
+    {"two have changed places",
+     HEAD SCENE "  - {name: a, sphere: {center: [-2, 1, 0], radius: 0.7}, material: {ambient: red}}\n"
+                "  - {name: b, sphere: {center: [2, 1, 0], radius: 0.7}, material: {ambient: blue}}\n",
+     HEAD SCENE "  - {name: a, sphere: {center: [2, 1, 0], radius: 0.7}, material: {ambient: red}}\n"
+                "  - {name: b, sphere: {center: [-2, 1, 0], radius: 0.7}, material: {ambient: blue}}\n",
+     "object \"b\" (scene.yaml:5): geometry moved\n"
+     "object \"a\" (scene.yaml:4): geometry moved\n",
+     0},
+    {"something thin beside what has changed too",
+     HEAD SCENE FLOOR "  - {name: wire, cylinder: {from: [0, 0, 0], to: [0, 2, 0], radius: 0.05}, material: {ambient: red}}\n",
+     HEAD SCENE "  - {name: floor, plane: {normal: [0, 1, 0]}, material: {ambient: white, diffuse: '#888'}}\n"
+                "  - {name: wire, cylinder: {from: [0, 0, 0], to: [0, 2, 0], radius: 0.05}, material: {ambient: lime}}\n",
+     "object \"floor\" (scene.yaml:4): shading changed, geometry equal\n"
+     "object \"wire\" (scene.yaml:5): shading changed, geometry equal\n",
+     0},
+    {"what has moved in its own plane, under another shadow",
+     HEAD SCENE "  - {name: tile, box: {min: [-2, -1, -2], max: [2, 0, 2]}, material: {reflection: 0.5}}\n"
+                "  - {name: ball, sphere: {center: [0, 1, 0], radius: 0.6}}\n",
+     HEAD SCENE "  - {name: tile, box: {min: [-2, -1, -2], max: [2.5, 0, 2]}, material: {reflection: 0.5}}\n"
+                "  - {name: ball, sphere: {center: [0.2, 1, 0], radius: 0.6}}\n",
+     "object \"tile\" (scene.yaml:4): geometry moved\n"
+     "object \"ball\" (scene.yaml:5): geometry moved\n",
+     0},
     {"without depth and normals", HEAD SCENE FLOOR BALL, HEAD SCENE FLOOR BALL BOX,
      "box (scene.yaml:6): appeared\n"
      "object \"floor\" (scene.yaml:4): shadow changed\n",
@@ -211,6 +234,36 @@ static void test_bounds(void **state) {
     assert_true(changes[1].bounds.x == 73 && changes[1].bounds.width == 10);
     forget(&a);
     forget(&b);
+}
+
+/* What moves by less than another program's rounding has not moved. */
+static void test_tolerance(void **state) {
+    (void)state;
+    static const struct {
+        float depth;
+        uint16_t normal;
+        size_t count;
+    } cases[] = {{10.0f, 500, 0}, {10.00001f, 500, 0}, {10.0001f, 500, 1}, {10.0f, 502, 0}, {10.0f, 503, 1}};
+    static struct monge_entry entry = {1, "ball", "sphere", "scene.yaml", 1, 1};
+    static const uint8_t differs[9];
+    for (size_t k = 0; k < COUNT(cases); k++) {
+        struct monge_layers *layers[2];
+        for (int side = 0; side < 2; side++) {
+            layers[side] = layers_new(3, 3, (struct monge_region){0, 0, 3, 3}, MONGE_LAYERS_ALL);
+            layers[side]->entries[0] = (struct layer_entries){&entry, 1, 1};
+            for (int i = 0; i < 9; i++) {
+                layers[side]->ids[0][i] = 1;
+                layers[side]->depth[i] = side ? cases[k].depth : 10.0f;
+                layers[side]->normals[3 * i + 1] = side ? cases[k].normal : 500;
+            }
+        }
+        struct monge_change change;
+        size_t count;
+        assert_true(changes_find(layers[0], layers[1], differs, &change, 1, &count));
+        assert_int_equal(count, cases[k].count);
+        monge_layers_free(layers[0]);
+        monge_layers_free(layers[1]);
+    }
 }
 
 static void test_refused(void **state) {
@@ -325,7 +378,7 @@ int main(void) {
     size_t count = 0;
     for (size_t i = 0; i < COUNT(rows); i++)
         tests[count++] = (struct CMUnitTest){rows[i].name, test_row, NULL, NULL, &rows[i]};
-    const struct CMUnitTest others[] = {cmocka_unit_test(test_bounds), cmocka_unit_test(test_refused),
+    const struct CMUnitTest others[] = {cmocka_unit_test(test_bounds), cmocka_unit_test(test_refused), cmocka_unit_test(test_tolerance),
                                         cmocka_unit_test(test_causes),
                                         cmocka_unit_test_setup_teardown(test_files, enter_folder, leave_folder)};
     for (size_t i = 0; i < COUNT(others); i++) tests[count++] = others[i];

@@ -180,6 +180,21 @@ static void test_objects(void **state) {
     monge_layers_free(layers);
 }
 
+/* A loop over so many objects that they are forgotten before they come again. */
+static void test_long_loop(void **state) {
+    (void)state;
+    static char text[40000];
+    int length = snprintf(text, sizeof text, ORTHOGRAPHIC "scene:\n  - for: {i: 2}\n    transform: [{translate: ['4 * i - 2', 0, 0]}]\n    group:\n");
+    for (int k = 0; k < 600; k++)
+        length += snprintf(text + length, sizeof text - (size_t)length, "      - sphere: {radius: %s}\n", k ? "0.1" : "1");
+    struct monge_layers *layers = render_good(text, 5, 5);
+    const uint32_t *ids = monge_layers_ids(layers, MONGE_LAYER_OBJECT);
+    assert_int_equal(ids[10], 1);
+    assert_int_equal(ids[14], 1);
+    assert_int_equal(layers->entries[MONGE_LAYER_OBJECT].highest, 600);
+    monge_layers_free(layers);
+}
+
 /* ---- The same in every way to render ---- */
 
 #define MANY                                                                                                 \
@@ -427,6 +442,7 @@ int main(void) {
         cmocka_unit_test(test_planar_depth),
         cmocka_unit_test(test_shadow),
         cmocka_unit_test(test_regions),
+        cmocka_unit_test(test_long_loop),
         cmocka_unit_test(test_tables),
         cmocka_unit_test_setup_teardown(test_files, enter_folder, leave_folder),
         cmocka_unit_test_setup_teardown(test_large_numbers, enter_folder, leave_folder),
