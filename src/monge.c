@@ -13,6 +13,7 @@
 #include "image/pixels.h"
 #include "image/png.h"
 #include "lang/stories.h"
+#include "render/layers.h"
 #include "render/render.h"
 
 const char *monge_version(void) { return MONGE_VERSION; }
@@ -150,4 +151,21 @@ bool monge_film_hash(const struct monge_film *film, char hash[MONGE_HASH_SIZE]) 
 
 void monge_film_scene_hash(const struct monge_film *film, char hash[MONGE_HASH_SIZE]) {
     hash_text(&film->scene, hash);
+}
+
+struct monge_layers *monge_render_layers(struct monge_scene *scene, const struct monge_settings *settings,
+                                         const struct monge_region *region, unsigned wanted,
+                                         const struct monge_job *job) {
+    const struct monge_job no_job = {0};
+    const struct monge_region whole = {0, 0, settings->width, settings->height};
+    if (!region) region = &whole;
+    if (monge_settings_check(settings) || !region_inside(region, settings)) return NULL;
+    if (!monge_scene_prepare(scene)) return NULL;
+    struct monge_layers *layers = layers_new(settings->width, settings->height, *region, wanted);
+    if (!layers) return NULL;
+    const struct hash hash = fingerprint(&scene->scene, settings);
+    hash_text(&hash, layers->scene);
+    if (render_layers(&scene->scene, scene->accel, settings, job ? job : &no_job, layers)) return layers;
+    monge_layers_free(layers);
+    return NULL;
 }

@@ -459,4 +459,118 @@ bool monge_compare(struct monge_picture *a, struct monge_picture *b, const struc
 bool monge_heat_map_write(struct monge_picture *a, struct monge_picture *b, const struct monge_compare *how,
                           const char *path, struct monge_diagnostics *diag);
 
+/* ---- Layers: auxiliary passes, what a picture shows rather than how it looks ---- */
+
+/* Each tells of a pixel what the ray through its centre meets first, whatever the picture's samples are. */
+enum monge_layer {
+    MONGE_LAYER_OBJECT,   /* the number of the object, 0: the background */
+    MONGE_LAYER_MATERIAL, /* the number of its material, 0: the background */
+    MONGE_LAYER_DEPTH,    /* how far in front of the eye, along the direction of view; background: infinity */
+    MONGE_LAYER_NORMAL,   /* world space, unit, on the side that is shaded */
+    MONGE_LAYER_SHADOW,   /* which point lights reach it */
+    MONGE_LAYERS
+};
+enum { MONGE_LAYERS_ALL = (1 << MONGE_LAYERS) - 1 }; /* of sets of layers, a bit 1 << layer for each */
+
+const char *monge_layer_name(enum monge_layer layer); /* "object", as in king.object.png; static */
+
+/* Some layers of one picture. */
+struct monge_layers;
+
+/* What a number of the layers object and material stands for. An object is the innermost with a name of those in
+ * the scene's own list and its groups; else the innermost with a name within templates; else the shape or the use
+ * of a template that the list has. What a loop places is one object. */
+struct monge_entry {
+    uint32_t id;           /* from 1; the same for every region of a picture */
+    const char *name;      /* NULL: it has none */
+    const char *kind;      /* "sphere", "group", "use of leg", "material" */
+    const char *file;      /* NULL: the default material, which is in no file */
+    uint32_t line, column; /* from 1 */
+};
+
+/* Renders the layers of the set `wanted` as monge_render does the picture. NULL when cancelled, out of memory, or
+ * settings or region are not right. The caller frees them. The same for every number of threads. */
+struct monge_layers *monge_render_layers(struct monge_scene *scene, const struct monge_settings *settings,
+                                         const struct monge_region *region, unsigned wanted,
+                                         const struct monge_job *job);
+void monge_layers_free(struct monge_layers *layers);
+
+unsigned monge_layers_set(const struct monge_layers *layers);                /* which there are */
+struct monge_region monge_layers_region(const struct monge_layers *layers); /* that they are of */
+
+/* The pixels, row by row from the top left; NULL where the layer is not there. Valid as long as the layers.
+ *   ids      object or material
+ *   depth    in world units; 0 or more, infinite in the background
+ *   normals  x, y, z of each pixel, -1 .. 1 as 0 .. 65535; 0, 0, 0 in the background
+ *   lights   a bit 1 << i for each point light that reaches the surface from the side that is seen: light i of
+ *            the scene, ambient ones left out, of the first MONGE_LAYER_LIGHTS. What is clear lets light pass. */
+enum { MONGE_LAYER_LIGHTS = 48 };
+const uint32_t *monge_layers_ids(const struct monge_layers *layers, enum monge_layer layer);
+const float *monge_layers_depth(const struct monge_layers *layers);
+const uint16_t *monge_layers_normals(const struct monge_layers *layers);
+const uint64_t *monge_layers_lights(const struct monge_layers *layers);
+
+/* What an id of object or material stands for; NULL: nothing that is in the picture. */
+const struct monge_entry *monge_layers_entry(const struct monge_layers *layers, enum monge_layer layer, uint32_t id);
+
+/* The file of a layer beside its picture, "king.depth.pfm" of "king.png": as snprintf, with its result. */
+size_t monge_layer_path(enum monge_layer layer, const char *picture, char *path, size_t size);
+
+/* Writes one layer that is there. PNG of 16 bits, of one channel or where that is not enough of three, the lowest
+ * 16 bits in red, then green and blue; objects and materials with their entries as JSON in the text chunk
+ * monge:table. Depth is a PFM. A file is complete or absent. False: diag says why, as a failure. */
+bool monge_layer_write(const struct monge_layers *layers, enum monge_layer layer, const char *path,
+                       struct monge_diagnostics *diag);
+
+/* Reads those layers of `wanted` again that are beside the picture. NULL when none of them is there, which is no
+ * failure, or when one cannot be read or does not fit the others: then diag has a failure. */
+struct monge_layers *monge_layers_read(const char *picture, unsigned wanted, struct monge_diagnostics *diag);
+
+/* ---- What changed between two pictures of a scene ---- */
+
+enum monge_change_kind {
+    MONGE_CHANGE_GEOMETRY,    /* it has moved or another shape */
+    MONGE_CHANGE_APPEARED,    /* nothing of it was seen before */
+    MONGE_CHANGE_DISAPPEARED, /* nothing of it is seen any more */
+    MONGE_CHANGE_MATERIAL,    /* geometry equal, a material of another name */
+    MONGE_CHANGE_SHADOW,      /* geometry equal, other lights reach it */
+    MONGE_CHANGE_SHADING,     /* geometry equal, and no other reason: its colour, lights, what it mirrors */
+    MONGE_CHANGES
+};
+
+struct monge_change {
+    enum monge_change_kind kind;
+    const struct monge_entry *object; /* of the newer layers, of the older where it is gone; NULL: the background */
+    uint64_t pixels;                  /* that this made different */
+    struct monge_region bounds;       /* around them, from the top left corner; of what has moved, around where */
+};
+
+/* Tells what changed from the older picture to the newer, of which the pixels differ that monge_compare counts as
+ * `beyond`. Both sets of layers have the layer object and are of the size of the pictures; of the other layers those
+ * count that both have. Objects are the same by their names; those without one, or with one name for several, by kind
+ * and by what is seen at the same place, then by their order. The first `room` changes, those of most pixels first;
+ * *count is how many there are. They point into the layers. False: diag says why, as a failure. */
+bool monge_changes(struct monge_picture *older, const struct monge_layers *older_layers,
+                   struct monge_picture *newer, const struct monge_layers *newer_layers,
+                   const struct monge_compare *how, struct monge_change *changes, size_t room, size_t *count,
+                   struct monge_diagnostics *diag);
+
+/* The change as a text: `object "lid" (scene.yaml:41): geometry moved`. As snprintf, with its result. */
+size_t monge_change_text(const struct monge_change *change, char *text, size_t size);
+
+/* What a picture was made of, by the text chunks of its file; NULL: it does not tell. */
+struct monge_stamp {
+    const char *program, *scene, *text, *options; /* monge:program and so on; no options: "" */
+};
+
+/* What is different between those of two pictures. */
+enum monge_sameness { MONGE_UNKNOWN, MONGE_SAME, MONGE_DIFFERENT };
+struct monge_causes {
+    enum monge_sameness program, scene, text, options;
+};
+struct monge_causes monge_causes(const struct monge_stamp *older, const struct monge_stamp *newer);
+
+/* The same as a sentence: "the scene's text differs; the options and the program are the same". As snprintf. */
+size_t monge_causes_text(const struct monge_causes *causes, char *text, size_t size);
+
 #endif

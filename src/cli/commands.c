@@ -65,6 +65,8 @@ const struct option_row OPTION_TABLE[OPTIONS] = {
     [OPTION_BITS] = {"bits", 0, VALUE_CHOICE, IN_RENDER, "8|16", 0, 0, "bits a channel in the file"},
     [OPTION_ENCODING] = {"encoding", 0, VALUE_CHOICE, IN_RENDER, "srgb|linear", 0, 0,
                          "how colours are encoded in the file"},
+    [OPTION_AOV] = {"aov", 0, VALUE_SET, IN_RENDER, "object|material|depth|normal|shadow", 0, 0,
+                    "write auxiliary passes beside the picture; several with commas between"},
     [OPTION_THREADS] = {"threads", 0, VALUE_WHOLE, IN_RENDER | IN_DIFF | IN_TEST, "N", 1, 1024,
                         "threads for each picture; all processors by default"},
     [OPTION_JOBS] = {"jobs", 'j', VALUE_WHOLE, IN_RENDER | IN_TEST, "N", 1, 256,
@@ -180,6 +182,10 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                      "--frames renders frames of a scene with an `animation`; without it, the first. In "
                      "a pattern {frame} is the number, with leading zeros; so is one %d or %04d, and %% "
                      "is a %. Without -o, and in a folder, pictures are called NAME-0001.png.",
+                     "--aov writes auxiliary passes beside the picture: NAME.object.png and so on, and "
+                     "NAME.depth.pfm. They tell of each pixel which object and which material the ray "
+                     "through its centre meets first, how far in front of the eye, with which normal, and "
+                     "which point lights reach it there. The manual has what is in the files.",
                      "The scene - is standard input; its picture goes to standard output unless -o "
                      "says otherwise. -o - is standard output.",
                      "With --format json or sarif everything that is wrong comes as one document on "

@@ -8,7 +8,11 @@
 #include <stdint.h>
 
 /* As diff(1) has them; of several, the highest counts. */
-enum status { STATUS_YES, STATUS_NO /* a scene is wrong, pictures differ */, STATUS_TROUBLE /* usage, files, system */ };
+enum status {
+    STATUS_YES,
+    STATUS_NO /* a scene is wrong, pictures differ */,
+    STATUS_TROUBLE /* usage, files, system */
+};
 
 enum command_id {
     COMMAND_NONE, /* monge itself */
@@ -41,6 +45,7 @@ enum option_id {
     OPTION_DEPTH,
     OPTION_BITS,
     OPTION_ENCODING,
+    OPTION_AOV,
     OPTION_THREADS,
     OPTION_JOBS,
     OPTION_SKIP_UNCHANGED,
@@ -92,6 +97,7 @@ enum value_kind {
     VALUE_CHOICES,  /* some of them, with commas between; may be given many times */
     VALUE_AMOUNT,   /* a whole number, or 0 .. 100 and % */
     VALUE_AREA,     /* as VALUE_REGION, or a file; may be given many times */
+    VALUE_SET,      /* some of the words of `value`, each once, with commas between */
     VALUE_FRAMES,   /* N, A-B, A- or all, with :STEP behind it; each low .. high */
     VALUE_PAIR,     /* NAME=VALUE; may be given many times */
 };
@@ -117,14 +123,19 @@ struct command_row {
     const char *name;
     const char *operands;       /* "SCENE...", "" */
     const char *doc;            /* no capital, no full stop */
-    const char *text[8];        /* paragraphs, up to a NULL */
+    const char *text[9];        /* paragraphs, up to a NULL */
     struct example examples[8]; /* up to a NULL */
-    const char *operand; /* "scene"; NULL where it needs none */
+    const char *operand;        /* "scene"; NULL where it needs none */
     enum status (*run)(const struct arguments *args);
 };
 extern const struct command_row COMMAND_TABLE[COMMANDS];
 
 extern const char *const STATUS_DOC[STATUS_TROUBLE + 1];
+
+/* Whether the value is made of words that are known. */
+static inline bool option_has_words(const struct option_row *row) {
+    return row->kind == VALUE_CHOICE || row->kind == VALUE_CHOICES || row->kind == VALUE_SET;
+}
 
 static inline bool command_takes(enum command_id command, enum option_id option) {
     return OPTION_TABLE[option].commands >> command & 1;

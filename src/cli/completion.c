@@ -10,10 +10,9 @@ static void print_choices(FILE *out, const char *choices) {
     for (; *choices; choices++) fputc(*choices == '|' ? ' ' : *choices, out);
 }
 
-static bool is_choice(const struct option_row *row) {
-    return row->kind == VALUE_CHOICE || row->kind == VALUE_CHOICES;
+static bool is_file(const struct option_row *row) {
+    return row->kind == VALUE_FILE || row->kind == VALUE_AREA;
 }
-static bool is_file(const struct option_row *row) { return row->kind == VALUE_FILE || row->kind == VALUE_AREA; }
 
 static void print_commands(FILE *out) {
     for (enum command_id c = COMMAND_NONE + 1; c < COMMANDS; c++)
@@ -51,7 +50,7 @@ static void print_bash_value(FILE *out, enum command_id command, enum option_id 
     fprintf(out, "    %s,--%s", name, row->name);
     if (row->letter) fprintf(out, " | %s,-%c", name, row->letter);
     fputs(") ", out);
-    if (is_choice(row)) {
+    if (option_has_words(row)) {
         fputs("mapfile -t COMPREPLY < <(compgen -W '", out);
         print_choices(out, row->value);
         fputs("' -- \"$word\")", out);
@@ -136,10 +135,10 @@ static void print_zsh_option(FILE *out, enum option_id option) {
     fputs("]", out);
     if (row->value) {
         fputs(":", out);
-        print_zsh_text(out, is_choice(row) ? row->name : row->value);
+        print_zsh_text(out, option_has_words(row) ? row->name : row->value);
         fputs(":", out);
         if (is_file(row)) fputs("_files", out);
-        if (is_choice(row)) {
+        if (option_has_words(row)) {
             fputs("(", out);
             print_choices(out, row->value);
             fputs(")", out);
@@ -208,7 +207,7 @@ static void print_fish_option(FILE *out, enum command_id command, enum option_id
         fputs(" -r", out);
     else if (row->value)
         fputs(" -x", out);
-    if (is_choice(row)) {
+    if (option_has_words(row)) {
         fputs(" -a '", out);
         print_choices(out, row->value);
         fputs("'", out);

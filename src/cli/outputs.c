@@ -8,6 +8,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "cli/aov.h"
 #include "cli/pattern.h"
 #include "cli/say.h"
 
@@ -175,6 +176,17 @@ static void add_claim(struct plan *plan, const char *path, const char *user, boo
     plan->claims[plan->claim_count++] = (struct claim){resolve(path), user, writes};
 }
 
+/* A picture with the files of its passes. */
+static void add_picture_claims(struct plan *plan, const char *picture, const char *user) {
+    add_claim(plan, picture, user, true);
+    for (enum monge_layer layer = 0; layer < MONGE_LAYERS; layer++) {
+        if (!(plan->passes >> layer & 1)) continue;
+        char *path = aov_path(layer, picture);
+        add_claim(plan, path, user, true);
+        free(path);
+    }
+}
+
 static bool make_room(struct plan *plan, size_t more) {
     struct claim *claims = realloc(plan->claims, (plan->claim_count + more) * sizeof *claims);
     if (claims)
@@ -185,11 +197,11 @@ static bool make_room(struct plan *plan, size_t more) {
 }
 
 static bool check_files(struct plan *plan) {
-    if (!make_room(plan, plan->count * 2 + 2)) return false;
+    if (!make_room(plan, plan->count * (2 + MONGE_LAYERS) + 2)) return false;
     for (size_t i = 0; i < plan->count; i += plan->sweep->total)
         add_claim(plan, plan->outputs[i].scene, plan->outputs[i].scene, false);
     for (size_t i = 0; i < plan->count; i++)
-        add_claim(plan, plan->outputs[i].path, plan->outputs[i].title, true);
+        add_picture_claims(plan, plan->outputs[i].path, plan->outputs[i].title);
     if (plan->stats) add_claim(plan, plan->stats, "--stats", true);
     if (plan->log) add_claim(plan, plan->log, "--log", true);
     return check_claims(plan);
@@ -197,10 +209,18 @@ static bool check_files(struct plan *plan) {
 
 static bool check_streams(const struct plan *plan) {
     const bool stats = plan->stats && is_stream(plan->stats), log = plan->log && is_stream(plan->log);
-    size_t pictures = 0;
-    for (size_t i = 0; i < plan->count; i++) pictures += is_stream(plan->outputs[i].path);
+    size_t pictures = 0, devices = 0;
+    for (size_t i = 0; i < plan->count; i++) {
+        pictures += is_stream(plan->outputs[i].path);
+        devices += is_special(plan->outputs[i].path);
+    }
     if (pictures > 1 || (pictures && many_frames(plan)))
         say_usage(COMMAND_RENDER, "-o -: standard output can take only one picture");
+    else if (plan->passes && pictures)
+        say_usage(COMMAND_RENDER, "--aov: passes are files beside the picture; give -o FILE");
+    else if (plan->passes && devices)
+        say_usage(COMMAND_RENDER, "--aov: passes are files beside the picture, which %s is not",
+                  plan->wanted);
     else if (pictures && (stats || log))
         say_usage(COMMAND_RENDER, "%s -: standard output takes the picture", stats ? "--stats" : "--log");
     else if (stats && log)
@@ -247,9 +267,20 @@ static bool makes_folders(const struct plan *plan) {
            !pattern_is_plain(wanted, plan->frames != NULL);
 }
 
+static bool check_passes_writable(const struct plan *plan, const char *picture) {
+    bool writable = true;
+    for (enum monge_layer layer = 0; layer < MONGE_LAYERS && writable; layer++) {
+        char *path = plan->passes >> layer & 1 ? aov_path(layer, picture) : NULL;
+        writable = !path || check_writable(path);
+        free(path);
+    }
+    return writable;
+}
+
 bool plan_reach(const struct plan *plan, const char *path) {
     char *copy = say_text("%s", path);
-    const bool good = (!makes_folders(plan) || make_folder(copy)) && check_writable(path);
+    const bool good = (!makes_folders(plan) || make_folder(copy)) && check_writable(path) &&
+                      check_passes_writable(plan, path);
     free(copy);
     return good;
 }
@@ -295,6 +326,7 @@ bool plan_begin(struct plan *plan, const struct arguments *args, const struct sc
         .lock = PTHREAD_MUTEX_INITIALIZER,
         .sweep = sweep,
         .frames = frames->given ? frames : NULL,
+        .passes = args->option[OPTION_AOV].set,
         .scenes = scenes,
         .count = scenes->count * sweep->total,
     };
@@ -315,8 +347,8 @@ void plan_free(struct plan *plan) {
 
 static bool check_paths(struct plan *plan, const struct output *output, char **paths, size_t count) {
     pthread_mutex_lock(&plan->lock);
-    const bool room = make_room(plan, count);
-    for (size_t i = 0; room && i < count; i++) add_claim(plan, paths[i], output->title, true);
+    const bool room = make_room(plan, count * (1 + MONGE_LAYERS));
+    for (size_t i = 0; room && i < count; i++) add_picture_claims(plan, paths[i], output->title);
     const bool good = room && check_claims(plan);
     pthread_mutex_unlock(&plan->lock);
     return good;

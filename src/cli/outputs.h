@@ -21,6 +21,7 @@ struct plan {
     const struct sweep *sweep;
     const struct scenes *scenes;
     const struct option_value *frames; /* NULL: --frames is not given */
+    unsigned passes;                   /* a bit 1 << layer for each that --aov asks for */
     struct output *outputs; /* each scene with each combination, the combinations running fastest */
     size_t count;
     pthread_mutex_t lock; /* of the claims */

@@ -4,6 +4,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "cli/aov.h"
 #include "cli/asked.h"
 #include "cli/checkpoint.h"
 #include "cli/clock.h"
@@ -83,6 +84,15 @@ static bool write_film(const struct monge_film *film, const char *path, struct r
     return written;
 }
 
+/* The auxiliary passes, where there are to be any. */
+static bool write_passes(const struct unit *unit, const struct load *load, const struct picture *picture) {
+    const struct option_value *option = unit->work->args.option;
+    const struct monge_job job = {.threads = option[OPTION_THREADS].number[0], .cancel = interrupt_flag()};
+    return !option[OPTION_AOV].given ||
+           aov_write(load->scene, &picture->settings, &picture->region, option[OPTION_AOV].set, &job,
+                     picture->output, &unit->work->loader.report);
+}
+
 /* ---- The picture ---- */
 
 static void tell_resumed(const struct unit *unit, const struct picture *picture,
@@ -108,7 +118,8 @@ static enum status render_scene(struct unit *unit, const struct load *load, stru
     tell_resumed(unit, picture, checkpoint);
     struct monge_film *film = render_film(unit, load, picture, checkpoint);
     const double rendered = clock_seconds();
-    if (film && write_film(film, picture->output, &unit->work->loader.report))
+    if (film && write_film(film, picture->output, &unit->work->loader.report) &&
+        write_passes(unit, load, picture))
         picture->outcome = PICTURE_RENDERED;
     picture->write_seconds = clock_seconds() - rendered;
     picture->peak_memory_bytes = stats_peak_memory();
