@@ -526,6 +526,10 @@ bool monge_layer_write(const struct monge_layers *layers, enum monge_layer layer
  * failure, or when one cannot be read or does not fit the others: then diag has a failure. */
 struct monge_layers *monge_layers_read(const char *picture, unsigned wanted, struct monge_diagnostics *diag);
 
+/* A hash of one of the layers depth, normal and shadow, of what each pixel has: equal ones show the same. False: it is
+ * another layer, or not there. */
+bool monge_layer_hash(const struct monge_layers *layers, enum monge_layer layer, char hash[MONGE_HASH_SIZE]);
+
 /* ---- What changed between two pictures of a scene ---- */
 
 enum monge_change_kind {

@@ -8,6 +8,7 @@
 
 const char *const GOLDEN_STATUS[] = {"same", "changed", "new", "missing", "orphan", "broken"};
 const char *const GOLDEN_KIND[] = {"png", "hash", "both"};
+const enum monge_layer GOLDEN_LAYER[] = {MONGE_LAYER_DEPTH, MONGE_LAYER_NORMAL, MONGE_LAYER_SHADOW};
 
 void golden_stamp_free(struct golden_stamp *stamp) {
     free(stamp->options);
@@ -42,35 +43,23 @@ char *golden_quoted(const char *text) {
 
 /* ---- Causes ---- */
 
-static bool hashes_differ(const char *a, const char *b) { return *a && *b && strcmp(a, b) != 0; }
+static const char *known(const char *hash) { return *hash ? hash : NULL; }
 
-struct golden_causes golden_causes(const struct golden_case *c) {
-    const struct golden_stamp *now = &c->now, *old = &c->old;
-    return (struct golden_causes){
-        .text = hashes_differ(now->text, old->text),
-        .options = now->options && old->options && strcmp(now->options, old->options) != 0,
-        .program = hashes_differ(now->program, old->program),
-    };
+static struct monge_stamp stamp_of(const struct golden_stamp *s) {
+    return (struct monge_stamp){known(s->program), known(s->scene), known(s->text), s->options};
 }
 
-char *golden_causes_text(const struct golden_causes *causes) {
-    const char *const names[] = {causes->text ? "the scene's text" : NULL,
-                                 causes->options ? "its options" : NULL,
-                                 causes->program ? "the program" : NULL};
-    char *text = say_text("%s", "");
-    size_t left = 0, count = 0;
-    for (size_t i = 0; i < 3; i++) left += names[i] != NULL;
-    for (size_t i = 0; i < 3; i++) {
-        if (!names[i]) continue;
-        char *longer = say_text("%s%s%s", text, count == 0 ? "" : --left > 1 ? ", " : " and ", names[i]);
-        free(text);
-        text = longer;
-        count++;
-    }
-    char *sentence =
-        count ? say_text("%s %s from that of the golden", text, count > 1 ? "differ" : "differs") : NULL;
-    free(text);
-    return sentence;
+struct monge_causes golden_causes(const struct golden_case *c) {
+    const struct monge_stamp old = stamp_of(&c->old), now = stamp_of(&c->now);
+    return monge_causes(&old, &now);
+}
+
+char *golden_causes_text(const struct golden_case *c) {
+    char text[400];
+    const struct monge_causes causes = golden_causes(c);
+    if (!*c->old.text) return NULL;
+    monge_causes_text(&causes, text, sizeof text);
+    return say_text("%s", text);
 }
 
 /* ---- Differences ---- */

@@ -24,10 +24,15 @@ enum golden_status {
 extern const char *const GOLDEN_STATUS[GOLDEN_STATUSES]; /* "same", ... */
 extern const char *const GOLDEN_KIND[];                  /* "png", "hash", "both" */
 
+/* The layers whose hashes a golden may have: the first two are geometry. */
+enum { GOLDEN_LAYERS = 3 };
+extern const enum monge_layer GOLDEN_LAYER[GOLDEN_LAYERS]; /* depth, normal, shadow */
+
 /* A picture in hashes; "" is what is not known. */
 struct golden_stamp {
     char pixels[MONGE_HASH_SIZE], scene[MONGE_HASH_SIZE], text[MONGE_HASH_SIZE], program[MONGE_HASH_SIZE];
-    char *options; /* owned; as asked_text has them; NULL: not known */
+    char layers[GOLDEN_LAYERS][MONGE_HASH_SIZE]; /* of what is seen: by GOLDEN_LAYER */
+    char *options;                               /* owned; as asked_text has them; NULL: not known */
     uint32_t width, height;
     unsigned bits;
 };
@@ -39,12 +44,13 @@ struct golden_case {
     char *rule_options;       /* as golden.yaml has them */
     enum monge_golden_kind kind;
     enum golden_status status;
+    bool aov; /* it has passes */
     bool
-        unchanged; /* not rendered: its inputs are those of the golden, or of a run in which it was the same */
+        unchanged; /* not rendered: its inputs are the golden's, or those of a run in which it was the same */
     bool within;   /* the same but for a tolerance */
     bool taken;    /* the golden is the new picture now */
     bool trouble;  /* the system failed, not the scene */
-    char *message;                     /* why it has its status, perhaps in many lines */
+    char *message; /* why it has its status, perhaps in many lines */
     struct golden_stamp now, old;      /* the scene's, and the golden's */
     char golden_file[MONGE_HASH_SIZE]; /* of the file of a golden that is a picture */
     char *golden_path, *new_path;      /* of pictures that are there to be looked at */
@@ -65,11 +71,8 @@ char *golden_quoted(const char *text);
 void golden_stamp_free(struct golden_stamp *stamp);
 void golden_case_free(struct golden_case *c);
 
-/* Which of the inputs are not those of the golden: false also where that is not known. */
-struct golden_causes {
-    bool text, options, program;
-};
-struct golden_causes golden_causes(const struct golden_case *c);
+/* What of the inputs is that of the golden. */
+struct monge_causes golden_causes(const struct golden_case *c);
 
 /* "at most 0.1% of the pixels by over 0.004, flip at most 0.01". To be freed. */
 char *golden_tolerance_text(const struct monge_tolerance *tolerance);
@@ -77,8 +80,9 @@ char *golden_tolerance_text(const struct monge_tolerance *tolerance);
 /* "1204 of 24576 pixels, by up to 0.31, flip 0.021"; of a case that is compared. To be freed. */
 char *golden_difference_text(const struct monge_difference *difference);
 
-/* "the scene's text and the program differ from those of the golden"; NULL: nothing differs. To be freed. */
-char *golden_causes_text(const struct golden_causes *causes);
+/* "the scene's text differs; the options and the program are the same"; NULL: nothing is known of the golden. To be
+ * freed. */
+char *golden_causes_text(const struct golden_case *c);
 
 /* Whether the difference is within the tolerance. */
 bool golden_tolerates(const struct monge_tolerance *tolerance, const struct monge_difference *difference);

@@ -109,6 +109,7 @@ static struct golden_case *add_case(const struct subject *s) {
                               .scene_name = say_text("%s", scene->name),
                               .rule_options = say_text("%s", scene->rule->rule->options),
                               .kind = scene->rule->rule->kind,
+                              .aov = scene->rule->rule->aov,
                               .status = GOLDEN_BROKEN};
     c->now.options = asked_text(scene->rule->args.option, s->defines, sweep->count, s->frame);
     set_command(c, scene->rule, s->defines, frames ? s->frame : 0);
@@ -175,6 +176,8 @@ static void run_case(const struct subject *s, struct golden_case *c) {
     interrupt_defer();
     struct monge_film *film = render(s, c, &settings, &region);
     if (film) golden_judge(s->run, c, film, has_golden);
+    if (film && c->new_path && s->scene->rule->rule->aov)
+        golden_judge_layers(s->run, s->load->scene, &settings, &region, c);
     monge_film_free(film);
     interrupt_settle();
 }

@@ -219,7 +219,7 @@ static void set_old_command(const struct golden_run *run, struct golden_case *c)
     free(lock);
     free(quoted_line);
     free(line);
-    if (golden_causes(c).program)
+    if (golden_causes(c).program == MONGE_DIFFERENT)
         golden_add_message(
             c,
             "the golden is of another program (sources %.12s): `--old PROGRAM` shows it, where you have that",

@@ -68,16 +68,14 @@ static bool read_hash(const char *text, char hash[MONGE_HASH_SIZE]) {
 
 /* KEY=HASH. */
 static bool read_field(const char *field, struct golden_stamp *stamp) {
-    const struct {
-        const char *key;
-        char *hash;
-    } fields[] = {{"pixels=", stamp->pixels},
-                  {"scene=", stamp->scene},
-                  {"text=", stamp->text},
-                  {"program=", stamp->program}};
-    for (size_t i = 0; i < sizeof fields / sizeof *fields; i++)
-        if (strncmp(field, fields[i].key, strlen(fields[i].key)) == 0)
-            return read_hash(field + strlen(fields[i].key), fields[i].hash);
+    const char *const keys[] = {"pixels", "scene", "text", "program"};
+    char *const hashes[] = {stamp->pixels, stamp->scene, stamp->text, stamp->program};
+    const size_t length = strcspn(field, "=");
+    for (int i = 0; i < 4 + GOLDEN_LAYERS && field[length]; i++) {
+        const char *key = i < 4 ? keys[i] : monge_layer_name(GOLDEN_LAYER[i - 4]);
+        if (strlen(key) == length && strncmp(field, key, length) == 0)
+            return read_hash(field + length + 1, i < 4 ? hashes[i] : stamp->layers[i - 4]);
+    }
     return false;
 }
 
@@ -93,7 +91,7 @@ static const char *read_line(char *text, struct golden_line *line) {
     if (!size || !read_size(size, &line->stamp)) return "after the name a size is expected, as 640x480x8";
     for (char *field; (field = strsep(&rest, " "));)
         if (!read_field(field, &line->stamp))
-            return "expected pixels=, scene=, text= and program= with their hashes, each once";
+            return "expected pixels=, scene=, text=, program= and the like, each once and with a hash";
     if (!*line->stamp.pixels) return "it has no pixels=";
     if (options && !unescape(options + 9, false))
         return "options with a character that must be written as %XX";
@@ -114,6 +112,7 @@ static void print_line(FILE *out, const struct golden_line *line) {
     print_hash(out, "scene", s->scene);
     print_hash(out, "text", s->text);
     print_hash(out, "program", s->program);
+    for (int i = 0; i < GOLDEN_LAYERS; i++) print_hash(out, monge_layer_name(GOLDEN_LAYER[i]), s->layers[i]);
     if (s->options && *s->options) {
         fputs(" options=", out);
         print_escaped(out, s->options, false);

@@ -40,6 +40,8 @@ static void read_stamp(const struct monge_value *value, struct golden_stamp *sta
     read_hash(value, "scene", stamp->scene);
     read_hash(value, "text", stamp->text);
     read_hash(value, "program", stamp->program);
+    for (int i = 0; i < GOLDEN_LAYERS; i++)
+        read_hash(value, monge_layer_name(GOLDEN_LAYER[i]), stamp->layers[i]);
     stamp->width = read_whole(size);
     stamp->height = size ? read_whole(monge_value_next(size)) : 0;
     stamp->bits = read_whole(monge_value_get(value, "bits"));

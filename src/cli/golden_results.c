@@ -100,6 +100,9 @@ static void put_stamp(FILE *out, const char *key, const struct golden_stamp *s) 
         fprintf(out, "%s\"%s\": \"%s\"", before, hashes[i][0], hashes[i][1]);
         before = ", ";
     }
+    for (int i = 0; i < GOLDEN_LAYERS; i++)
+        if (*s->layers[i])
+            fprintf(out, "%s\"%s\": \"%s\"", before, monge_layer_name(GOLDEN_LAYER[i]), s->layers[i]);
     if (s->width) fprintf(out, "%s\"size\": [%u, %u], \"bits\": %u", before, s->width, s->height, s->bits);
     if (s->options) {
         fputs(", \"options\": ", out);
@@ -153,11 +156,12 @@ static void put_changes(FILE *out, const struct golden_case *c) {
 }
 
 static void put_causes(FILE *out, const struct golden_case *c) {
-    const struct golden_causes causes = golden_causes(c);
+    static const char *const words[] = {"null", "false", "true"};
+    const struct monge_causes causes = golden_causes(c);
     if (!*c->old.text) return;
     put_key(out, "differs");
-    fprintf(out, "{\"text\": %s, \"options\": %s, \"program\": %s}", causes.text ? "true" : "false",
-            causes.options ? "true" : "false", causes.program ? "true" : "false");
+    fprintf(out, "{\"text\": %s, \"options\": %s, \"program\": %s}", words[causes.text],
+            words[causes.options], words[causes.program]);
 }
 
 static void put_case(FILE *out, const struct golden_case *c) {

@@ -47,6 +47,12 @@ void golden_judge(const struct golden_run *run, struct golden_case *c, const str
  * none; the message of the case tells. */
 bool golden_render_old(const struct golden_run *run, struct golden_case *c);
 
+/* Writes the passes of the scene, as it is now, beside the case's new picture, with their hashes into c->now; and tells what has
+ * changed since the golden, where that has passes too, or hashes of them. What goes wrong is a message. */
+void golden_judge_layers(const struct golden_run *run, struct monge_scene *scene,
+                         const struct monge_settings *settings, const struct monge_region *region,
+                         struct golden_case *c);
+
 /* What the case says beside its message. */
 void golden_add_message(struct golden_case *c, const char *format, ...) __attribute__((format(printf, 2, 3)));
 

@@ -56,8 +56,7 @@ void golden_print_details(FILE *out, const struct golden_case *c, const char *be
     if (c->status == GOLDEN_SAME) return;
     if (c->message) print_lines(out, c->message, before);
     for (size_t i = 0; i < c->change_count; i++) print_lines(out, c->changes[i], before);
-    const struct golden_causes causes = golden_causes(c);
-    char *differs = c->status == GOLDEN_CHANGED ? golden_causes_text(&causes) : NULL;
+    char *differs = c->status == GOLDEN_CHANGED ? golden_causes_text(c) : NULL;
     if (differs) print_lines(out, differs, before);
     free(differs);
     if (c->tolerance_text && c->status == GOLDEN_CHANGED)
