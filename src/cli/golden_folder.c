@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "cli/aov.h"
 #include "cli/say.h"
 
 /* ---- Names and paths ---- */
@@ -26,12 +27,6 @@ char *golden_path(const char *folder, const char *name, const char *extension) {
     const size_t length = strlen(folder);
     const char *slash = length > 0 && folder[length - 1] == '/' ? "" : "/";
     return say_text("%s%s%s%s", folder, slash, name, extension);
-}
-
-const char *golden_layer(size_t index) {
-    static const char *const layers[] = {"object.png", "material.png", "depth.pfm", "normal.png",
-                                         "shadow.png"};
-    return index < sizeof layers / sizeof *layers ? layers[index] : NULL;
 }
 
 bool golden_is_file(const char *path) {
@@ -115,15 +110,15 @@ static size_t picture_length(const char *file) {
 
 /* Whether it is NAME.object.png or so, beside a NAME.png. */
 static bool is_layer(const char *path) {
-    for (size_t i = 0; golden_layer(i); i++) {
-        const size_t all = strlen(path), length = strlen(golden_layer(i));
-        if (all <= length + 1 || path[all - length - 1] != '.' ||
-            strcmp(path + all - length, golden_layer(i)) != 0)
-            continue;
-        char *picture = say_text("%.*s.png", (int)(all - length - 1), path);
-        const bool layer = golden_is_file(picture);
+    for (enum monge_layer layer = 0; layer < MONGE_LAYERS; layer++) {
+        char *ending = aov_path(layer, ".png"); /* of no name: what all of them end in */
+        const size_t all = strlen(path), length = strlen(ending);
+        const bool ends = all > length && strcmp(path + all - length, ending) == 0;
+        char *picture = ends ? say_text("%.*s.png", (int)(all - length), path) : NULL;
+        const bool found = picture && golden_is_file(picture);
         free(picture);
-        return layer;
+        free(ending);
+        if (found) return true;
     }
     return false;
 }

@@ -10,9 +10,6 @@ bool golden_name_is_safe(const char *name);
 /* FOLDER/NAME and the extension, ".png". To be freed. */
 char *golden_path(const char *folder, const char *name, const char *extension);
 
-/* The layers beside a picture: "object.png" of 0 and so on; NULL: there is none of that number. */
-const char *golden_layer(size_t index);
-
 bool golden_is_file(const char *path);
 
 /* The file, complete or not at all, in folders that are made. False, with the reason told. */

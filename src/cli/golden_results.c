@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/aov.h"
 #include "cli/golden_folder.h"
 #include "cli/say.h"
 
@@ -124,16 +125,15 @@ static void put_pictures(FILE *out, const char *golden, const char *new) {
 
 /* Those that are there of the files beside the two pictures. */
 static void put_layers(FILE *out, const struct golden_case *c) {
-    const char *pictures[] = {c->golden_path, c->new_path}, *const keys[] = {"golden", "new"}, *before = NULL;
-    for (size_t layer = 0; golden_layer(layer); layer++) {
-        const char *file = golden_layer(layer), *inner = NULL;
+    const char *const pictures[] = {c->golden_path, c->new_path}, *const keys[] = {"golden", "new"},
+                      *before = NULL;
+    for (enum monge_layer layer = 0; layer < MONGE_LAYERS; layer++) {
+        const char *inner = NULL;
         for (int side = 0; side < 2; side++) {
-            if (!pictures[side]) continue;
-            char *path = say_text("%.*s.%s", (int)strlen(pictures[side]) - 4, pictures[side], file);
-            if (golden_is_file(path)) {
+            char *path = pictures[side] ? aov_path(layer, pictures[side]) : NULL;
+            if (path && golden_is_file(path)) {
                 if (!before) put_key(out, "layers");
-                if (!inner)
-                    fprintf(out, "%s\"%.*s\": ", before ? before : "{", (int)strcspn(file, "."), file);
+                if (!inner) fprintf(out, "%s\"%s\": ", before ? before : "{", monge_layer_name(layer));
                 fprintf(out, "%s\"%s\": ", inner ? inner : "{", keys[side]);
                 monge_write_json_string(path, out);
                 before = inner = ", ";

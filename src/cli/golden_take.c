@@ -4,6 +4,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "cli/aov.h"
 #include "cli/golden_folder.h"
 #include "cli/say.h"
 
@@ -12,16 +13,11 @@ bool golden_can_take(const struct golden_case *c) {
            (c->status == GOLDEN_CHANGED || c->status == GOLDEN_NEW || c->status == GOLDEN_MISSING);
 }
 
-/* The file beside a picture, NAME.object.png of NAME.png. To be freed. */
-static char *beside(const char *picture, const char *layer) {
-    return say_text("%.*s.%s", (int)strlen(picture) - 4, picture, layer);
-}
-
 /* The layers of the picture come along; those of the old one go. */
 static bool take_layers(const char *folder, const char *from, const char *to) {
     bool good = true;
-    for (size_t i = 0; good && golden_layer(i); i++) {
-        char *new = beside(from, golden_layer(i)), *old = beside(to, golden_layer(i));
+    for (enum monge_layer layer = 0; good && layer < MONGE_LAYERS; layer++) {
+        char *new = aov_path(layer, from), *old = aov_path(layer, to);
         good = golden_is_file(new) ? golden_copy(new, old) : golden_remove(folder, old);
         free(new);
         free(old);
@@ -51,10 +47,10 @@ bool golden_forget(const char *folder, struct golden_lock *lock, const struct go
     bool good = true;
     golden_lock_remove(lock, c->name);
     if (!c->golden_path) return true;
-    for (size_t i = 0; good && golden_layer(i); i++) {
-        char *layer = beside(c->golden_path, golden_layer(i));
-        good = golden_remove(folder, layer);
-        free(layer);
+    for (enum monge_layer layer = 0; good && layer < MONGE_LAYERS; layer++) {
+        char *path = aov_path(layer, c->golden_path);
+        good = golden_remove(folder, path);
+        free(path);
     }
     return good && golden_remove(folder, c->golden_path);
 }

@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "cli/aov.h"
 #include "cli/batch.h"
 #include "cli/clock.h"
 #include "cli/golden_folder.h"
@@ -129,8 +130,8 @@ static bool clear_folder(const struct golden_run *run) {
         char *folder = golden_path(run->output, folders[i % 2], "");
         char *path = golden_path(folder, name, ".png");
         good &= golden_remove(run->output, path);
-        for (size_t layer = 0; golden_layer(layer); layer++) {
-            char *beside = say_text("%.*s.%s", (int)strlen(path) - 4, path, golden_layer(layer));
+        for (enum monge_layer layer = 0; layer < MONGE_LAYERS; layer++) {
+            char *beside = aov_path(layer, path);
             good &= golden_remove(run->output, beside);
             free(beside);
         }
