@@ -97,7 +97,7 @@ const struct option_row OPTION_TABLE[OPTIONS] = {
                        "leave out these pixels, or those that a PNG is not black in; repeatable"},
     [OPTION_MASK] = {"mask", 0, VALUE_FILE, IN_DIFF, "MASK", 0, 0, "the same as --ignore MASK"},
     [OPTION_PPD] = {"ppd", 0, VALUE_FRACTION, IN_DIFF, "F", 1, 1000,
-                    "pixels per degree that FLIP's eye sees; 67 by default"},
+                    "pixels per degree of sight, for flip; 67 by default"},
     [OPTION_HEAT_MAP] = {"out", 'o', VALUE_FILE, IN_DIFF, "FILE", 0, 0,
                          "write a picture of where they differ; - is standard output"},
     [OPTION_DIFF_JSON] = {"json", 0, VALUE_NONE, IN_DIFF, NULL, 0, 0, "as one JSON object"},

@@ -179,39 +179,66 @@ INLINE void load_row(const struct flip *f, int which, uint32_t y, int64_t left, 
 #define AT(p)  (*(const vector *)(p))
 #define SET(p) (*(vector *)(p))
 
-INLINE void even_along_x(const struct flip_filter *filter, const float *row, float *out) {
-    for (int x = 0; x < TILE_WIDTH; x += LANES) {
-        vector sum = filter->weight[0] * AT(row + x);
-        for (int k = 1; k <= filter->radius; k++)
-            sum += filter->weight[k] * (AT(row + x - k) + AT(row + x + k));
-        SET(out + x) = sum;
-    }
+/* Filters go over blocks of columns, so that a weight is fetched once for several vectors. */
+enum { BLOCK = 4 * LANES };
+#define EACH(v) for (int v = 0; v < BLOCK; v += LANES)
+
+/* What a filter that is even adds up, and what one that is odd does, of two rows that are as far from the middle. */
+INLINE void add_pair(vector sum[4], float weight, const float *a, const float *b) {
+    EACH(v) sum[v / LANES] += weight * (AT(a + v) + AT(b + v));
 }
 
-INLINE void odd_along_x(const struct flip_filter *filter, const float *row, float *out) {
-    for (int x = 0; x < TILE_WIDTH; x += LANES) {
-        vector sum = {0};
-        for (int k = 1; k <= filter->radius; k++)
-            sum += filter->weight[k] * (AT(row + x + k) - AT(row + x - k));
-        SET(out + x) = sum;
+INLINE void store_sum(float *out, const vector sum[4]) {
+    EACH(v) SET(out + v) = sum[v / LANES];
+}
+
+INLINE void even_along_x(const struct flip_filter *filter, const float *row, float *out) {
+    for (int x = 0; x < TILE_WIDTH; x += BLOCK) {
+        vector sum[4];
+        EACH(v) sum[v / LANES] = filter->weight[0] * AT(row + x + v);
+        for (int k = 1; k <= filter->radius; k++) add_pair(sum, filter->weight[k], row + x - k, row + x + k);
+        store_sum(out + x, sum);
     }
 }
 
 INLINE void even_along_y(const struct flip_filter *filter, const float *const *middle, float *out) {
-    for (int x = 0; x < TILE_WIDTH; x += LANES) {
-        vector sum = filter->weight[0] * AT(middle[0] + x);
+    for (int x = 0; x < TILE_WIDTH; x += BLOCK) {
+        vector sum[4];
+        EACH(v) sum[v / LANES] = filter->weight[0] * AT(middle[0] + x + v);
         for (int k = 1; k <= filter->radius; k++)
-            sum += filter->weight[k] * (AT(middle[-k] + x) + AT(middle[k] + x));
-        SET(out + x) = sum;
+            add_pair(sum, filter->weight[k], middle[-k] + x, middle[k] + x);
+        store_sum(out + x, sum);
     }
 }
 
-INLINE void odd_along_y(const struct flip_filter *filter, const float *const *middle, float *out) {
+/* The derivatives of the Gaussian share what they read, and along x so does the Gaussian. */
+INLINE void features_along_x(const struct flip_filters *f, const float *row, float *blurred, float *edge,
+                             float *point) {
     for (int x = 0; x < TILE_WIDTH; x += LANES) {
-        vector sum = {0};
-        for (int k = 1; k <= filter->radius; k++)
-            sum += filter->weight[k] * (AT(middle[k] + x) - AT(middle[-k] + x));
-        SET(out + x) = sum;
+        const vector middle = AT(row + x);
+        vector blurs = f->blur.weight[0] * middle, points = f->point.weight[0] * middle, edges = {0};
+        for (int k = 1; k <= f->blur.radius; k++) {
+            const vector before = AT(row + x - k), behind = AT(row + x + k), both = before + behind;
+            blurs += f->blur.weight[k] * both;
+            points += f->point.weight[k] * both;
+            edges += f->edge.weight[k] * (behind - before);
+        }
+        SET(blurred + x) = blurs;
+        SET(point + x) = points;
+        SET(edge + x) = edges;
+    }
+}
+
+INLINE void features_along_y(const struct flip_filters *f, const float *const *middle, float *edge, float *point) {
+    for (int x = 0; x < TILE_WIDTH; x += LANES) {
+        vector points = f->point.weight[0] * AT(middle[0] + x), edges = {0};
+        for (int k = 1; k <= f->blur.radius; k++) {
+            const vector before = AT(middle[-k] + x), behind = AT(middle[k] + x);
+            points += f->point.weight[k] * (before + behind);
+            edges += f->edge.weight[k] * (behind - before);
+        }
+        SET(point + x) = points;
+        SET(edge + x) = edges;
     }
 }
 
@@ -235,9 +262,7 @@ INLINE void enter_row(const struct flip *f, struct tile *tile, uint32_t left, in
         even_along_x(&filters->red_green, tile->row[RED_GREEN] + radius, out[X_RED_GREEN]);
         even_along_x(&filters->blue_yellow[0], tile->row[BLUE_YELLOW] + radius, out[X_BLUE_YELLOW_1]);
         even_along_x(&filters->blue_yellow[1], tile->row[BLUE_YELLOW] + radius, out[X_BLUE_YELLOW_2]);
-        even_along_x(&filters->blur, tile->row[LUMA] + radius, out[X_BLUR]);
-        odd_along_x(&filters->edge, tile->row[LUMA] + radius, out[X_EDGE]);
-        even_along_x(&filters->point, tile->row[LUMA] + radius, out[X_POINT]);
+        features_along_x(filters, tile->row[LUMA] + radius, out[X_BLUR], out[X_EDGE], out[X_POINT]);
     }
 }
 
@@ -258,9 +283,7 @@ INLINE void filter_along_y(const struct flip *f, struct tile *tile, int64_t y) {
         even_along_y(&filters->blue_yellow[1], find_ring(f, tile, which, X_BLUE_YELLOW_2, y), out[CHROMA_3]);
         even_along_y(&filters->blur, find_ring(f, tile, which, X_EDGE, y), out[EDGE_X]);
         even_along_y(&filters->blur, find_ring(f, tile, which, X_POINT, y), out[POINT_X]);
-        const float *const *blurred = find_ring(f, tile, which, X_BLUR, y);
-        odd_along_y(&filters->edge, blurred, out[EDGE_Y]);
-        even_along_y(&filters->point, blurred, out[POINT_Y]);
+        features_along_y(filters, find_ring(f, tile, which, X_BLUR, y), out[EDGE_Y], out[POINT_Y]);
     }
 }
 
