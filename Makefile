@@ -46,12 +46,12 @@ STORIES := $(BUILD)/gen/stories
 endif
 
 # Which program it is: a hash of all that it is made from.
-PROGRAM_SOURCES := $(sort $(wildcard src/*.[ch] src/*/*.[ch] grammar/*.yaml tools/grammar/*.[ch] tools/diagnostics.c)) scenes/presets.yaml
+PROGRAM_SOURCES := $(sort $(wildcard src/*.[ch] src/*/*.[ch] src/cli/page/* tools/embed grammar/*.yaml tools/grammar/*.[ch] tools/diagnostics.c)) scenes/presets.yaml
 IDENTITY := $(BUILD)/gen/program
 
 object = $(patsubst %.c,$(BUILD)/obj/%.o,$(1))
 OBJECTS := $(call object,$(filter-out src/cli/%,$(SOURCES))) $(patsubst $(BUILD)/%,$(BUILD)/obj/%.o,$(GRAMMAR) $(STORIES) $(IDENTITY))
-CLI_OBJECTS := $(call object,$(filter src/cli/%,$(SOURCES)))
+CLI_OBJECTS := $(call object,$(filter src/cli/%,$(SOURCES))) $(BUILD)/obj/gen/page.o
 TOOL_OBJECTS := $(call object,$(wildcard src/base/*.c src/lang/yaml.c src/lang/spelling.c))
 
 UNIT_PROGRAMS := $(UNIT:tests/unit/%.c=$(BUILD)/tests/%)
@@ -221,6 +221,11 @@ $(BUILD)/tools/diagnostics: $(call object,tools/diagnostics.c src/lang/file.c) $
 	@mkdir -p $(@D)
 	$(call say,link,$@)
 	$(QUIET)$(LINK) -o $@ $^ $(LIBS)
+
+$(BUILD)/gen/page.c: tools/embed $(wildcard src/cli/page/*)
+	@mkdir -p $(@D)
+	$(call say,gen,$@)
+	$(QUIET)tools/embed src/cli/page > $@
 
 $(BUILD)/gen/program.c: $(PROGRAM_SOURCES)
 	@mkdir -p $(@D)
