@@ -125,6 +125,8 @@ const struct option_row OPTION_TABLE[OPTIONS] = {
     [OPTION_TEST_JSON] = {"json", 0, VALUE_FILE, IN_TEST, "FILE|-", 0, 0, "write the results as JSON"},
     [OPTION_JUNIT] = {"junit", 0, VALUE_FILE, IN_TEST, "FILE|-", 0, 0, "write the results as JUnit's XML"},
     [OPTION_TAP] = {"tap", 0, VALUE_NONE, IN_TEST, NULL, 0, 0, "tell the results as TAP, version 13"},
+    [OPTION_REPORT] = {"report", 0, VALUE_FILE, IN_TEST, "DIR", 0, 0,
+                       "write the results with their pictures as one page, DIR/index.html"},
     [OPTION_PRUNE] = {"prune", 0, VALUE_NONE, IN_ACCEPT, NULL, 0, 0, "remove goldens whose scenes are gone"},
     [OPTION_CHECK_ONLY] = {"check", 0, VALUE_NONE, IN_FMT, NULL, 0, 0,
                            "write nothing; list what is not formatted, exit status 1 if any"},

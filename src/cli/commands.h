@@ -76,6 +76,7 @@ enum option_id {
     OPTION_TEST_JSON, /* the same word, but with a file */
     OPTION_JUNIT,
     OPTION_TAP,
+    OPTION_REPORT,
     OPTION_PRUNE,
     OPTION_CHECK_ONLY,
     OPTION_QUIET,

@@ -9,6 +9,7 @@
 #include "cli/aov.h"
 #include "cli/batch.h"
 #include "cli/clock.h"
+#include "cli/golden_files.h"
 #include "cli/golden_folder.h"
 #include "cli/golden_orphans.h"
 #include "cli/golden_run.h"
@@ -219,30 +220,7 @@ static bool take_new(struct test *test) {
     return taken == wanted;
 }
 
-/* ---- Files for others ---- */
-
-static bool write_file(const char *path, const char *content) {
-    const struct monge_text text = {(char *)content, strlen(content)};
-    if (strcmp(path, "-") != 0) return golden_write(path, &text);
-    fputs(content, stdout);
-    return true;
-}
-
-static bool write_results(const struct test *test) {
-    const struct option_value *option = test->args.option;
-    char *json = golden_results_text(&test->results),
-         *path = golden_path(test->run.output, "results.json", "");
-    bool good = write_file(path, json);
-    if (option[OPTION_TEST_JSON].given) good &= write_file(option[OPTION_TEST_JSON].text, json);
-    if (option[OPTION_JUNIT].given) {
-        char *xml = golden_junit_text(&test->results);
-        good &= write_file(option[OPTION_JUNIT].text, xml);
-        free(xml);
-    }
-    free(path);
-    free(json);
-    return good;
-}
+/* ---- What it comes to ---- */
 
 static enum status judge(const struct test *test) {
     enum status worst = test->run.loader.scenes.status;
@@ -283,7 +261,7 @@ static enum status run_test(struct test *test) {
     if (!check_names(&test->results)) return STATUS_TROUBLE;
     interrupt_defer();
     bool good = !wants(test, OPTION_UPDATE_ONLY_FAILED) || take_new(test);
-    good &= write_results(test);
+    good &= golden_files_write(&test->results, run->output, test->args.option);
     interrupt_settle();
     hint(test);
     return good ? judge(test) : STATUS_TROUBLE;
