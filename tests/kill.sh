@@ -60,7 +60,7 @@ finish() {
     [ -z "$(find p -name '*.partial')" ] || fail "a checkpoint is left over"
 }
 
-version=1
+version=2
 for ((n = 1; n <= kills; n++)); do
     # a run that begins anew, with pictures of before or without, or goes on where the last one was killed
     case $((RANDOM % 3)) in
