@@ -153,7 +153,7 @@ assert log[0]["rays"]["camera"] == 100 * 75 * 16 and len(log[0]["pixel_hash"]) =
 assert log[1]["scene_hash"] == log[2]["scene_hash"] != log[0]["scene_hash"] and log[4]["error"]
 PYTHON
 else left_out "progress and log: no python3"; fi
-exits 0 render 0[1-3].yaml -j 1 -o bar/ --size 400x300 --samples 4 --progress always; err_has '1 of 2 pictures  ['
+exits 0 render 0[1-3].yaml -j 1 -o bar/ --size 400x300 --samples 4 --progress always; err_has ' of 2 pictures  ['
 cd ..
 
 # ---- Unchanged pictures ----
