@@ -73,7 +73,7 @@ SUBMAKE = $(MAKE) --no-print-directory $(if $(findstring -j,$(MAKEFLAGS)),,-j$(J
 # ---- What people ask for ----
 
 .DEFAULT_GOAL := all
-.PHONY: node-deps all demo test check tsan same fuzz coverage bench reference format lint deps install uninstall clean help
+.PHONY: node-deps all demo test check tsan same kill fuzz coverage bench reference format lint deps install uninstall clean help
 
 all: ## build the program, build/monge
 	@tools/deps --check
@@ -107,6 +107,9 @@ same: all ## that the golden pictures are the same from other compilers and opti
 	tests/goldens.sh $(BUILD)/same/gcc-native/monge
 	+@if command -v clang >/dev/null; then $(SUBMAKE) build-program BUILD=$(BUILD)/same/clang CC=clang CFLAGS=-O2 && \
 	    tests/goldens.sh $(BUILD)/same/clang/monge; fi
+
+kill: all ## kill batches at 200 random moments, and look at what they leave
+	KILLS=200 tests/kill.sh $(BUILD)/monge
 
 fuzz: deps ## a minute of hostile bytes for the loader (libFuzzer where clang has it)
 	tests/fuzz/run.sh 60 $(BUILD)/fuzz

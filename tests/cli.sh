@@ -445,7 +445,7 @@ ok "standard input with a sweep" [ $status -eq 0 ]; ok "its first" cmp s1.png p/
 exits 0 render "${small[@]}" -q params.yaml -D a=1,2 -D b=1 --stats s.json
 ok "the statistics have the parameters" grep -qF '"params": {"a": "2", "b": "1"}' s.json
 exits 0 render --size 640x480 --samples 16 --threads 1 params.yaml -D a=1,2 --progress always -o 'p{a}.png'
-err_has '1 of 2 pictures  ['
+err_has ' of 2 pictures  ['
 exits 1 render "${small[@]}" params.yaml -D a=1,-1,2; err_has '2 rendered, 1 failed'
 cd ..
 

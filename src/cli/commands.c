@@ -39,6 +39,15 @@
     "recursion (of templates: 100), steps (objects and turns of loops: 10M), objects (shapes: 20M), "        \
     "pixels (of the picture: 268435456). k, M and G are powers of 1000, of bytes powers of 1024."
 
+#define SCENES_TEXT                                                                                          \
+    "A SCENE is a file; a folder, which stands for all *.yaml and *.yml below it that have a `scene`, by "   \
+    "name "                                                                                                  \
+    "(what is hidden and links to folders are passed by); a pattern in quotes, as 'scenes/**/k*.yaml', in "  \
+    "which "                                                                                                 \
+    "** stands for any folders; or @FILE, a list with one of these a line, where # begins a comment and "    \
+    "paths "                                                                                                 \
+    "are from the current folder. "
+
 /* The words of a choice stand in the order of the enum that they become. */
 const struct option_row OPTION_TABLE[OPTIONS] = {
     [OPTION_OUTPUT] = {"output", 'o', VALUE_FILE, IN_RENDER, "FILE|DIR/|PATTERN", 0, 0,
@@ -170,32 +179,56 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
             .name = "render",
             .operands = "SCENE...",
             .doc = "render scenes to PNG pictures",
-            .text = {"Renders each scene, one after another, to NAME.png in the current folder; NAME "
-                     "is the scene's file name without .yaml or .yml. The options override what the "
-                     "scene says.",
-                     "-o FILE names the picture of a single scene. For several, -o DIR/ puts the "
-                     "pictures into a folder, which is made where it is missing, and in a pattern "
-                     "{name} stands for NAME; folders of a pattern are made too. A picture is complete "
-                     "or absent: it is written under a temporary name and then renamed.",
-                     "-D sets parameters of the scene. Lists make a sweep: -D a=1,2 -D b=x,y renders "
-                     "each a with each b, b first. Commas within brackets or quotes do not split. In a "
-                     "pattern {a} stands for the value of a; without -o pictures are called "
-                     "NAME-a=1-b=x.png.",
-                     "--frames renders frames of a scene with an `animation`; without it, the first. In "
-                     "a pattern {frame} is the number, with leading zeros; so is one %d or %04d, and %% "
-                     "is a %. Without -o, and in a folder, pictures are called NAME-0001.png.",
-                     "--aov writes auxiliary passes beside the picture: NAME.object.png and so on, and "
-                     "NAME.depth.pfm. They tell of each pixel which object and which material the ray "
-                     "through its centre meets first, how far in front of the eye, with which normal, and "
-                     "which point lights reach it there. The manual has what is in the files.",
-                     "The scene - is standard input; its picture goes to standard output unless -o "
-                     "says otherwise. -o - is standard output.",
-                     "With --format json or sarif everything that is wrong comes as one document on "
-                     "standard error at the end, with --quiet implied; wrong usage is still told as "
-                     "text. `monge help check` tells what is in it.",
-                     LIMITS_TEXT},
+            .text =
+                {"Renders each scene to NAME.png in the current folder; NAME is the scene's file name "
+                 "without .yaml or .yml, and of a scene below a folder that is given, the path from "
+                 "there. The options override what the scene says.",
+                 SCENES_TEXT "- is standard input: a list, if each of its lines names something that is "
+                             "there or ends in .yaml or .yml, and else a scene; @- is always a list. The "
+                             "picture of a scene on standard input goes to standard output unless -o says "
+                             "otherwise.",
+                 "-o FILE names the picture of a single scene. For several, -o DIR/ puts the "
+                 "pictures into a folder, which is made where it is missing, and in a pattern "
+                 "{name} stands for NAME; folders of a pattern are made too. A picture is complete "
+                 "under its name, or what was there before stays.",
+                 "-D sets parameters of the scene. Lists make a sweep: -D a=1,2 -D b=x,y renders "
+                 "each a with each b, b first. Commas within brackets or quotes do not split. In a "
+                 "pattern {a} stands for the value of a; without -o pictures are called "
+                 "NAME-a=1-b=x.png.",
+                 "--frames renders frames of a scene with an `animation`; without it, the first. In "
+                 "a pattern {frame} is the number, with leading zeros; so is one %d or %04d, and %% "
+                 "is a %. Without -o, and in a folder, pictures are called NAME-0001.png.",
+                 "--aov writes auxiliary passes beside the picture: NAME.object.png and so on, and "
+                 "NAME.depth.pfm. They tell of each pixel which object and which material the ray "
+                 "through its centre meets first, how far in front of the eye, with which normal, and "
+                 "which point lights reach it there. The manual has what is in the files.",
+                 "-o - is standard output.",
+                 "--jobs scenes are rendered at once, each on --threads threads; messages, --log and "
+                 "--stats keep the order of the batch, and a line at the end counts what has become of "
+                 "it. What fails does not keep the others from being rendered, unless --fail-fast is "
+                 "given.",
+                 "--skip-unchanged leaves a picture alone that is whole and says, in its text chunks, that "
+                 "this program made it of these files with these options. --resume does so too, and for a "
+                 "picture that takes longer than a second keeps the tiles that are done in .NAME.png.partial "
+                 "beside it: the same command, given again after the first run was stopped in whatever way, "
+                 "goes on from there, to the same bytes. The file goes when the picture is complete; it "
+                 "counts for nothing where the scene, the settings or the program are no longer the same. "
+                 "Of two runs for the same picture one keeps the tiles, and both make the picture.",
+                 "--progress json writes a line for each picture that is done and ten a second while one is "
+                 "rendered: an object with done, total, rendered, unchanged, failed (pictures), part (0 to "
+                 "1), "
+                 "seconds, seconds_left (null: unknown), picture, pixels, of_pixels; --quiet is implied. "
+                 "--log "
+                 "adds a line for each picture to a file: scene, output, frame, params, status (rendered, "
+                 "unchanged, failed), and what --stats has, with hashes.",
+                 "With --format json or sarif everything that is wrong comes as one document on "
+                 "standard error at the end, with --quiet implied; wrong usage is still told as "
+                 "text. `monge help check` tells what is in it.",
+                 LIMITS_TEXT},
             .examples = {{"monge render king.yaml", "writes king.png"},
-                         {"monge render scenes/*.yaml -o pictures/ --size 320x240", "small pictures of many"},
+                         {"monge render scenes/ -o pictures/ --size 320x240", "small pictures of many"},
+                         {"monge render scenes/ -o pictures/ --resume --log pictures.log",
+                          "a long batch: to be given again if it is stopped"},
                          {"monge render king.yaml -o 'draft-{name}.png' --shading diffuse --no-shadows",
                           "a quick look, in draft-king.png"},
                          {"monge render king.yaml -D roughness=0.1,0.2,0.4 -o 'king-{roughness}.png'",
@@ -221,8 +254,8 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                      "notifications of the tool. Lines and columns count from 1, columns in characters, "
                      "an end is the first column behind.",
                      "With lists of values, as in -D a=1,2, each combination is checked.", LIMITS_TEXT,
-                     "The scene - is standard input."},
-            .examples = {{"monge check --quiet scenes/*.yaml", "a step of a build: silent where all is well"},
+                     SCENES_TEXT "The scene - is standard input."},
+            .examples = {{"monge check --quiet scenes/", "a step of a build: silent where all is well"},
                          {"monge check --format sarif scenes/*.yaml > monge.sarif",
                           "for what shows SARIF beside the code"}},
             .operand = "scene",
@@ -242,7 +275,8 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                  "Primitives are counted as they are kept, those of a template that is placed as a whole "
                  "once; "
                  "`placed` is their number with all of that carried out.",
-                 "With --json: one object for each scene, with the same. The scene - is standard input."},
+                 "With --json: one object for each scene, with the same.",
+                 SCENES_TEXT "The scene - is standard input."},
             .examples = {{"monge info king.yaml", "what king.yaml consists of"},
                          {"monge info --json king.yaml | jq .camera", "the camera that it is framed by"}},
             .operand = "scene",
@@ -340,9 +374,12 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                      "numbers are kept as written. A scene need not be right, but must be YAML.",
                      "A file that is formatted is not touched; another one is replaced as a whole. With "
                      "--check nothing is written, and the files that are not formatted are listed on "
-                     "standard output. The scene - is standard input, and goes to standard output."},
-            .examples = {{"monge fmt scenes/*.yaml", "in place"},
-                         {"monge fmt --check scenes/*.yaml",
+                     "standard output.",
+                     SCENES_TEXT
+                     "Of a folder, files with definitions alone are formatted too. The scene - is "
+                     "standard input, and goes to standard output."},
+            .examples = {{"monge fmt scenes/", "in place"},
+                         {"monge fmt --check scenes/",
                           "a step of a build: 1 where something is not formatted"},
                          {"monge fmt - < king.yaml | diff king.yaml -", "what it would change"}},
             .operand = "scene",

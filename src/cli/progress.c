@@ -90,21 +90,28 @@ static size_t count_done(const struct progress *p) {
     return p->done[PICTURE_FAILED] + p->done[PICTURE_RENDERED] + p->done[PICTURE_UNCHANGED];
 }
 
-/* By what rendering has taken so far, which says nothing of pictures that need none. Negative: unknown. */
-static double seconds_left(const struct progress *p, double parts, double now) {
-    const double rendered = parts - p->unchanged;
-    if (!(rendered > 0.0)) return parts < (double)p->units ? -1.0 : 0.0;
-    return (now - p->begun) * ((double)p->units - parts) / rendered;
+/* Units' worth that is not done; sums of parts are never quite whole. */
+static double parts_left(const struct progress *p) {
+    const double left = (double)p->units - p->parts;
+    return left > 1e-9 ? left : 0.0;
 }
 
-static void print_json(const struct progress *p, const struct progress_unit *unit, double parts, double now) {
-    const double left = seconds_left(p, parts, now);
+static double part_done(const struct progress *p) { return 1.0 - parts_left(p) / (double)p->units; }
+
+/* By what rendering has taken so far, which says nothing of pictures that need none. Negative: unknown. */
+static double seconds_left(const struct progress *p, double now) {
+    const double left = parts_left(p), rendered = p->parts - p->unchanged;
+    if (left == 0.0) return 0.0;
+    return rendered > 1e-9 ? (now - p->begun) * left / rendered : -1.0;
+}
+
+static void print_json(const struct progress *p, const struct progress_unit *unit, double now) {
+    const double left = seconds_left(p, now);
     flockfile(stderr); /* in one piece, whatever other threads say */
     fprintf(stderr, "{\"done\": %zu, \"total\": %zu, \"rendered\": %zu, \"unchanged\": %zu, \"failed\": %zu",
             count_done(p), p->pictures, p->done[PICTURE_RENDERED], p->done[PICTURE_UNCHANGED],
             p->done[PICTURE_FAILED]);
-    fprintf(stderr, ", \"part\": %.4f, \"seconds\": %.3f, \"seconds_left\": ", parts / (double)p->units,
-            now - p->begun);
+    fprintf(stderr, ", \"part\": %.4f, \"seconds\": %.3f, \"seconds_left\": ", part_done(p), now - p->begun);
     fprintf(stderr, left < 0.0 ? "null" : "%.3f", left);
     if (unit && unit->name) {
         fputs(", \"picture\": ", stderr);
@@ -115,16 +122,16 @@ static void print_json(const struct progress *p, const struct progress_unit *uni
     funlockfile(stderr);
 }
 
-static void show(struct progress *p, const struct progress_unit *unit, double parts, double now) {
+static void show(struct progress *p, const struct progress_unit *unit, double now) {
     char counts[64];
     p->shown = now;
     if (p->wish == PROGRESS_JSON) {
-        print_json(p, unit, parts, now);
+        print_json(p, unit, now);
         return;
     }
-    const double left = seconds_left(p, parts, now);
+    const double left = seconds_left(p, now);
     snprintf(counts, sizeof counts, "%zu of %zu pictures", count_done(p), p->pictures);
-    if (left >= 0.0) draw_bar(p, p->pictures > 1 ? counts : unit->name, parts / (double)p->units, left);
+    if (left >= 0.0) draw_bar(p, p->pictures > 1 ? counts : unit->name, part_done(p), left);
 }
 
 static double unit_part(const struct progress_unit *unit) {
@@ -160,7 +167,7 @@ void progress_update(void *context, uint64_t done, uint64_t total) {
     const double now = clock_seconds();
     pthread_mutex_lock(&p->lock);
     move(unit, unit->done, done, total);
-    if (p->wish != PROGRESS_NEVER && done > 0 && now - p->shown >= INTERVAL) show(p, unit, p->parts, now);
+    if (p->wish != PROGRESS_NEVER && done > 0 && now - p->shown >= INTERVAL) show(p, unit, now);
     pthread_mutex_unlock(&p->lock);
 }
 
@@ -170,7 +177,7 @@ void progress_done(struct progress_unit *unit, enum outcome outcome) {
     p->done[outcome]++;
     if (outcome != PICTURE_RENDERED) p->unchanged += 1.0 / (double)unit->pictures;
     move(unit, unit->done + 1, 0, 0);
-    if (p->wish == PROGRESS_JSON) show(p, unit, p->parts, clock_seconds());
+    if (p->wish == PROGRESS_JSON) show(p, unit, clock_seconds());
     unit->name = NULL;
     pthread_mutex_unlock(&p->lock);
 }

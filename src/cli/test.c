@@ -31,6 +31,16 @@ static bool wants(const struct test *test, enum option_id option) { return test-
 
 /* ---- Scenes ---- */
 
+/* The root as one would name it from here, where it is below. To be freed. */
+static char *root_from_here(const char *root) {
+    char *here = getcwd(NULL, 0);
+    const size_t length = here ? strlen(here) : 0;
+    const bool below = length > 1 && strncmp(root, here, length) == 0 && (root[length] == '/' || !root[length]);
+    char *path = !below ? say_text("%s", root) : say_text("%s", root[length] ? root + length + 1 : ".");
+    free(here);
+    return path;
+}
+
 /* Without operands, all that is below the root. */
 static bool find_scenes(struct test *test) {
     struct golden_run *run = &test->run;
@@ -41,9 +51,11 @@ static bool find_scenes(struct test *test) {
     }
     if (test->args.count == 0) {
         struct arguments args = test->args;
-        args.operands = &run->settings.root;
+        char *root = root_from_here(run->settings.root);
+        args.operands = &root;
         args.count = 1;
         scenes_find(&run->loader.scenes, &args, SCENES_ALONE, &run->loader.limits.load, &run->loader.report);
+        free(root);
     }
     for (size_t i = 0; i < run->loader.scenes.count; i++) {
         if (strcmp(run->loader.scenes.all[i].path, "-") != 0) continue;
