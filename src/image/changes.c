@@ -152,8 +152,8 @@ static size_t merge_overlaps(struct overlap *list, size_t count) {
 static struct overlap *list_overlaps(const struct matching *m, size_t *count) {
     const struct inquiry *c = m->inquiry;
     const size_t pixels = (size_t)c->width * c->height;
-    struct overlap *list = NULL;
-    size_t room = 0;
+    size_t room = 256;
+    struct overlap *list = arena_array(c->arena, room, sizeof *list);
     *count = 0;
     for (size_t i = 0; i < pixels; i++) {
         const uint32_t a = c->object[OLDER][i], b = c->object[NEWER][i];
@@ -164,14 +164,13 @@ static struct overlap *list_overlaps(const struct matching *m, size_t *count) {
             continue;
         }
         if (*count == room) {
-            const size_t before = room * sizeof *list;
-            room = room ? 2 * room : 256;
-            list = arena_resize(c->arena, list, before, room * sizeof *list);
+            list = arena_resize(c->arena, list, room * sizeof *list, 2 * room * sizeof *list);
+            room *= 2;
         }
         list[(*count)++] = (struct overlap){a - 1, b - 1, 1};
     }
     *count = merge_overlaps(list, *count);
-    qsort(list, *count, list ? sizeof *list : 1, compare_overlaps);
+    qsort(list, *count, sizeof *list, compare_overlaps);
     return list;
 }
 

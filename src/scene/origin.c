@@ -17,7 +17,7 @@ static bool same_name(const char *a, const char *b) { return a == b || (a && b &
 
 static bool same_origin(const struct origin *a, const struct origin *b) {
     return a->line == b->line && a->column == b->column && a->file == b->file && a->template == b->template &&
-           a->kind == b->kind && a->object == b->object && same_name(a->name, b->name);
+           a->kind == b->kind && same_name(a->name, b->name);
 }
 
 /* The last one is in most cases the one. */
