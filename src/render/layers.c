@@ -51,7 +51,9 @@ void monge_layers_free(struct monge_layers *layers) {
 }
 
 unsigned monge_layers_set(const struct monge_layers *layers) { return layers->set; }
-struct monge_region monge_layers_region(const struct monge_layers *layers) { return layers->region; }
+struct monge_region monge_layers_region(const struct monge_layers *layers) {
+    return layers->region;
+}
 const float *monge_layers_depth(const struct monge_layers *layers) { return layers->depth; }
 const uint16_t *monge_layers_normals(const struct monge_layers *layers) { return layers->normals; }
 const uint64_t *monge_layers_lights(const struct monge_layers *layers) { return layers->lights; }
@@ -83,8 +85,7 @@ static uint32_t object_of(const struct scene *scene, const struct occurrence *wh
     uint32_t listed = 0, named = ORIGIN_NO_OBJECT;
     for (uint32_t i = 0; i <= which->depth; i++) {
         const struct primitive_info *info = &set->info[which->number[i]];
-        const bool has_name =
-            info->object != ORIGIN_NO_OBJECT && origins->objects[info->object].name != NULL;
+        const bool has_name = info->object != ORIGIN_NO_OBJECT && origins->objects[info->object].name != NULL;
         if (i == 0)
             listed = info->object != ORIGIN_NO_OBJECT ? info->object : origins->object_count + info->origin;
         if (i == 0 && has_name) return listed;
@@ -161,9 +162,7 @@ struct surveying {
     const uint32_t *object_ids; /* by candidate */
 };
 
-static uint16_t normal_code(double component) {
-    return (uint16_t)((0.5 * component + 0.5) * 65535.0 + 0.5);
-}
+static uint16_t normal_code(double component) { return (uint16_t)((0.5 * component + 0.5) * 65535.0 + 0.5); }
 
 static void write_sight(const struct surveying *sv, const struct sight *sight, size_t at,
                         uint64_t rays[MONGE_RAY_KINDS]) {
@@ -172,15 +171,13 @@ static void write_sight(const struct surveying *sv, const struct sight *sight, s
         layers->ids[MONGE_LAYER_OBJECT][at] = sv->object_ids[object_of(sv->tracer.scene, &sight->hit.which)];
     if (layers->ids[MONGE_LAYER_MATERIAL]) layers->ids[MONGE_LAYER_MATERIAL][at] = sight->hit.material + 1;
     if (layers->depth)
-        layers->depth[at] =
-            (float)vec3_dot(vec3_sub(sight->surface.point, sv->view.eye), sv->view.forward);
+        layers->depth[at] = (float)vec3_dot(vec3_sub(sight->surface.point, sv->view.eye), sv->view.forward);
     if (layers->normals) {
         layers->normals[3 * at] = normal_code(sight->normal.x);
         layers->normals[3 * at + 1] = normal_code(sight->normal.y);
         layers->normals[3 * at + 2] = normal_code(sight->normal.z);
     }
-    if (layers->lights)
-        layers->lights[at] = trace_lights(&sv->tracer, sight, MONGE_LAYER_LIGHTS, rays);
+    if (layers->lights) layers->lights[at] = trace_lights(&sv->tracer, sight, MONGE_LAYER_LIGHTS, rays);
 }
 
 static void survey_pixel(const void *context, uint32_t x, uint32_t y, uint64_t rays[MONGE_RAY_KINDS]) {

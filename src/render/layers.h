@@ -17,12 +17,12 @@ struct layer_entries {
 };
 
 struct monge_layers {
-    unsigned set;                 /* of which the arrays below are there; the others are NULL */
-    uint32_t width, height;       /* of the whole picture */
-    struct monge_region region;   /* the arrays have its pixels, row by row from the top left */
-    uint32_t *ids[2];             /* object, material: indexed as enum monge_layer */
+    unsigned set;               /* of which the arrays below are there; the others are NULL */
+    uint32_t width, height;     /* of the whole picture */
+    struct monge_region region; /* the arrays have its pixels, row by row from the top left */
+    uint32_t *ids[2];           /* object, material: indexed as enum monge_layer */
     struct layer_entries entries[2];
-    float *depth;                 /* as monge.h has them */
+    float *depth; /* as monge.h has them */
     uint16_t *normals;
     uint64_t *lights;
     uint32_t light_count;       /* point lights of the picture */

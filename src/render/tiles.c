@@ -22,8 +22,7 @@ struct run {
 static void report(struct run *run, uint64_t done) {
     const struct tiling *tiling = run->tiling;
     if (!tiling->job->progress || atomic_flag_test_and_set(&run->reporting)) return;
-    tiling->job->progress(tiling->job->context, done,
-                          (uint64_t)tiling->region.width * tiling->region.height);
+    tiling->job->progress(tiling->job->context, done, (uint64_t)tiling->region.width * tiling->region.height);
     atomic_flag_clear(&run->reporting);
 }
 

@@ -11,7 +11,8 @@
 #include "base/source.h"
 
 #define ORIGIN_NO_TEMPLATE UINT32_MAX
-#define ORIGIN_NO_OBJECT   UINT32_MAX /* of a primitive: the shape itself; in a geometry, that of the instance */
+#define ORIGIN_NO_OBJECT                                                                                     \
+    UINT32_MAX /* of a primitive: the shape itself; in a geometry, that of the instance */
 
 struct origin {
     const char *name; /* the object's, or that of the innermost group or use around with one; NULL: none */
