@@ -56,7 +56,8 @@ static uint8_t *find_differences(struct monge_picture *older, struct monge_pictu
     uint8_t *differs = NULL;
     float *row = malloc(width * sizeof *row);
     snprintf(reason, PICTURE_REASON_SIZE, "out of memory");
-    if (comparison_begin(&c, older, newer, how, reason, about)) differs = malloc((size_t)width * older->height);
+    if (comparison_begin(&c, older, newer, how, reason, about))
+        differs = malloc((size_t)width * older->height);
     for (uint32_t y = 0; row && differs && y < older->height; y++) {
         compare_row(&c, y, row);
         for (uint32_t x = 0; x < width; x++) differs[(size_t)y * width + x] = row[x] > (float)how->max_delta;

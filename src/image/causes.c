@@ -20,8 +20,9 @@ struct monge_causes monge_causes(const struct monge_stamp *older, const struct m
 enum { TEXT, OPTIONS, PROGRAM, SUBJECTS };
 
 /* "the scene's text and the options are the same": those of the subjects that are `sameness`. Nothing of none. */
-static void print_part(FILE *out, const char *const subjects[SUBJECTS], const enum monge_sameness found[SUBJECTS],
-                       enum monge_sameness sameness, const char *one, const char *many) {
+static void print_part(FILE *out, const char *const subjects[SUBJECTS],
+                       const enum monge_sameness found[SUBJECTS], enum monge_sameness sameness,
+                       const char *one, const char *many) {
     const char *name[SUBJECTS];
     int count = 0, last = 0;
     for (int i = 0; i < SUBJECTS; i++)
@@ -35,10 +36,10 @@ static void print_part(FILE *out, const char *const subjects[SUBJECTS], const en
 
 size_t monge_causes_text(const struct monge_causes *causes, char *text, size_t size) {
     const bool by_words = causes->text == MONGE_DIFFERENT && causes->scene == MONGE_SAME;
-    const char *const subjects[SUBJECTS] = {
-        [TEXT] = by_words ? "the scene's text, but not what it means," : "the scene's text",
-        [OPTIONS] = "the options",
-        [PROGRAM] = "the program"};
+    const char *const subjects[SUBJECTS] = {[TEXT] = by_words ? "the scene's text, but not what it means,"
+                                                              : "the scene's text",
+                                            [OPTIONS] = "the options",
+                                            [PROGRAM] = "the program"};
     const enum monge_sameness found[SUBJECTS] = {
         [TEXT] = causes->text, [OPTIONS] = causes->options, [PROGRAM] = causes->program};
     char *all = NULL;

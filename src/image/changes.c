@@ -152,26 +152,26 @@ static size_t merge_overlaps(struct overlap *list, size_t count) {
 static struct overlap *list_overlaps(const struct matching *m, size_t *count) {
     const struct inquiry *c = m->inquiry;
     const size_t pixels = (size_t)c->width * c->height;
-    struct overlap *list = NULL;
-    size_t room = 0;
+    size_t room = 256;
+    struct overlap *list = arena_array(c->arena, room, sizeof *list);
     *count = 0;
     for (size_t i = 0; i < pixels; i++) {
         const uint32_t a = c->object[OLDER][i], b = c->object[NEWER][i];
-        if (!a || !b || !is_free(m, OLDER, a - 1) || !is_free(m, NEWER, b - 1) || !same_geometry(c, i)) continue;
+        if (!a || !b || !is_free(m, OLDER, a - 1) || !is_free(m, NEWER, b - 1) || !same_geometry(c, i))
+            continue;
         struct overlap *last = *count ? &list[*count - 1] : NULL;
         if (last && last->older == a - 1 && last->newer == b - 1) {
             last->pixels++;
             continue;
         }
         if (*count == room) {
-            const size_t before = room * sizeof *list;
-            room = room ? 2 * room : 256;
-            list = arena_resize(c->arena, list, before, room * sizeof *list);
+            list = arena_resize(c->arena, list, room * sizeof *list, 2 * room * sizeof *list);
+            room *= 2;
         }
         list[(*count)++] = (struct overlap){a - 1, b - 1, 1};
     }
     *count = merge_overlaps(list, *count);
-    qsort(list, *count, list ? sizeof *list : 1, compare_overlaps);
+    qsort(list, *count, sizeof *list, compare_overlaps);
     return list;
 }
 
@@ -301,8 +301,7 @@ static void find_insides(struct inquiry *c) {
 static uint32_t one_in_front(const struct inquiry *c, size_t i) {
     const uint32_t a = c->object[OLDER][i], b = c->object[NEWER][i];
     if (!a || !b) return a ? a : b;
-    if (both(c, MONGE_LAYER_DEPTH))
-        return c->layers[OLDER]->depth[i] < c->layers[NEWER]->depth[i] ? a : b;
+    if (both(c, MONGE_LAYER_DEPTH)) return c->layers[OLDER]->depth[i] < c->layers[NEWER]->depth[i] ? a : b;
     return c->tracks[b].entry[OLDER] ? a : b;
 }
 
@@ -447,16 +446,15 @@ static int compare_changes(const void *a, const void *b) {
 }
 
 static size_t list_changes(const struct inquiry *c, struct monge_change *changes, size_t room) {
-    struct monge_change *all =
-        arena_array(c->arena, (size_t)c->track_count * MONGE_CHANGES, sizeof *all);
+    struct monge_change *all = arena_array(c->arena, (size_t)c->track_count * MONGE_CHANGES, sizeof *all);
     size_t count = 0;
     for (uint32_t t = 0; t < c->track_count; t++) {
         const struct track *track = &c->tracks[t];
         for (enum monge_change_kind kind = 0; kind < MONGE_CHANGES; kind++)
             if (track->pixels[kind])
-                all[count++] =
-                    (struct monge_change){kind, track->entry[NEWER] ? track->entry[NEWER] : track->entry[OLDER],
-                                          track->pixels[kind], track->bounds[kind]};
+                all[count++] = (struct monge_change){
+                    kind, track->entry[NEWER] ? track->entry[NEWER] : track->entry[OLDER],
+                    track->pixels[kind], track->bounds[kind]};
     }
     qsort(all, count, sizeof *all, compare_changes);
     for (size_t i = 0; i < count && i < room; i++) changes[i] = all[i];
@@ -487,10 +485,10 @@ bool changes_find(const struct monge_layers *older, const struct monge_layers *n
     jmp_buf full;
     struct arena arena = {.on_full = &full};
     struct inquiry c = {.layers = {older, newer},
-                           .differs = differs,
-                           .arena = &arena,
-                           .width = older->region.width,
-                           .height = older->region.height};
+                        .differs = differs,
+                        .arena = &arena,
+                        .width = older->region.width,
+                        .height = older->region.height};
     if (!both(&c, MONGE_LAYER_OBJECT) || c.width != newer->region.width || c.height != newer->region.height)
         return false;
     if (setjmp(full)) {
@@ -505,12 +503,9 @@ bool changes_find(const struct monge_layers *older, const struct monge_layers *n
 /* ---- Words ---- */
 
 static const char *const kind_words[MONGE_CHANGES] = {
-    [MONGE_CHANGE_GEOMETRY] = "geometry moved",
-    [MONGE_CHANGE_APPEARED] = "appeared",
-    [MONGE_CHANGE_DISAPPEARED] = "disappeared",
-    [MONGE_CHANGE_MATERIAL] = "material changed, geometry equal",
-    [MONGE_CHANGE_SHADOW] = "shadow changed",
-    [MONGE_CHANGE_SHADING] = "shading changed, geometry equal",
+    [MONGE_CHANGE_GEOMETRY] = "geometry moved", [MONGE_CHANGE_APPEARED] = "appeared",
+    [MONGE_CHANGE_DISAPPEARED] = "disappeared", [MONGE_CHANGE_MATERIAL] = "material changed, geometry equal",
+    [MONGE_CHANGE_SHADOW] = "shadow changed",   [MONGE_CHANGE_SHADING] = "shading changed, geometry equal",
 };
 
 size_t monge_change_text(const struct monge_change *change, char *text, size_t size) {

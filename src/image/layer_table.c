@@ -89,8 +89,8 @@ static bool read_escape(struct scan *s, char **to) {
             s->at++;
             return true;
         }
-    if (*s->at != 'u' || strspn(s->at + 1, "0123456789abcdefABCDEF") < 4 || sscanf(s->at + 1, "%4x", &code) != 1 ||
-        code == 0)
+    if (*s->at != 'u' || strspn(s->at + 1, "0123456789abcdefABCDEF") < 4 ||
+        sscanf(s->at + 1, "%4x", &code) != 1 || code == 0)
         return false;
     *to = put_code(*to, code);
     s->at += 5;

@@ -78,8 +78,7 @@ static bool write_numbers(const struct monge_layers *layers, enum monge_layer la
     if (!good) snprintf(message, size, "cannot write %s: out of memory", path);
     for (size_t i = 0; good && i < pixels; i++)
         for (unsigned c = 0; c < samples.channels; c++)
-            samples.values[samples.channels * i + c] =
-                (uint16_t)(number_at(layers, layer, i) >> (16 * c));
+            samples.values[samples.channels * i + c] = (uint16_t)(number_at(layers, layer, i) >> (16 * c));
     if (has_table) samples.texts[samples.text_count++] = (struct samples_text){key, table};
     good = good && write_samples(layers, path, &samples, message, size);
     free(samples.values);
@@ -231,8 +230,8 @@ static bool read_layer(struct reading *reading, enum monge_layer layer, const ch
     if (!path) return fail(reading, picture, "out of memory");
     monge_layer_path(layer, picture, path, length);
     const bool there = access(path, F_OK) == 0;
-    const bool good =
-        !there || (layer == MONGE_LAYER_DEPTH ? read_depth(reading, path) : read_picture(reading, layer, path));
+    const bool good = !there || (layer == MONGE_LAYER_DEPTH ? read_depth(reading, path)
+                                                            : read_picture(reading, layer, path));
     free(path);
     return good;
 }

@@ -65,8 +65,8 @@ static bool read_rows(FILE *stream, uint32_t width, uint32_t height, bool least_
     return fgetc(stream) == EOF;
 }
 
-bool pfm_read(const char *path, size_t most, uint32_t *width, uint32_t *height, float **values,
-              char *message, size_t size) {
+bool pfm_read(const char *path, size_t most, uint32_t *width, uint32_t *height, float **values, char *message,
+              size_t size) {
     FILE *stream = fopen(path, "rb");
     const char *reason = strerror(errno);
     bool least_first, good = false;

@@ -14,7 +14,7 @@ bool pfm_write(const char *path, uint32_t width, uint32_t height, const float *v
 
 /* Reads a file of at most `most` values, whatever the order of its bytes. *values is to be freed. False: the reason
  * is in `message`. */
-bool pfm_read(const char *path, size_t most, uint32_t *width, uint32_t *height, float **values,
-              char *message, size_t size);
+bool pfm_read(const char *path, size_t most, uint32_t *width, uint32_t *height, float **values, char *message,
+              size_t size);
 
 #endif

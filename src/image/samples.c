@@ -36,7 +36,8 @@ static void set_texts(struct writer *w, const struct samples *samples) {
     for (unsigned i = 0; i < samples->text_count; i++) {
         const struct samples_text *from = &samples->texts[i];
         const bool is_short = strlen(from->text) < SHORT_TEXT;
-        const png_text text = {.compression = is_short ? PNG_ITXT_COMPRESSION_NONE : PNG_ITXT_COMPRESSION_zTXt,
+        const png_text text = {.compression =
+                                   is_short ? PNG_ITXT_COMPRESSION_NONE : PNG_ITXT_COMPRESSION_zTXt,
                                .key = from->key,
                                .text = from->text};
         png_set_text(w->png, w->info, &text, 1);

@@ -74,60 +74,81 @@ const struct monge_entry *monge_layers_entry(const struct monge_layers *layers, 
     return bsearch(&id, entries->list, entries->count, sizeof *entries->list, compare_ids);
 }
 
-/* ---- Objects ---- */
+/* ---- Objects ----
+ * A candidate is an object of the scene's list of them, or, behind all of these, an origin of the scene's own shapes:
+ * one that belongs to no such object is one itself. */
 
-/* The index of the object that a hit belongs to, as origin.h tells. */
+/* The candidate that a hit belongs to. */
 static uint32_t object_of(const struct scene *scene, const struct occurrence *which) {
+    const struct origins *origins = &scene->origins;
     const struct primitives *set = &scene->primitives;
-    uint32_t listed = ORIGIN_NO_OBJECT, named = ORIGIN_NO_OBJECT;
+    uint32_t listed = 0, named = ORIGIN_NO_OBJECT;
     for (uint32_t i = 0; i <= which->depth; i++) {
         const struct primitive_info *info = &set->info[which->number[i]];
-        const uint32_t object = scene->origins.list[info->origin].object;
-        const bool has_name = object != ORIGIN_NO_OBJECT && scene->origins.objects[object].name != NULL;
-        if (i == 0) listed = object;
-        if (i == 0 && has_name) return object;
-        if (has_name) named = object;
+        const bool has_name = info->object != ORIGIN_NO_OBJECT && origins->objects[info->object].name != NULL;
+        if (i == 0)
+            listed = info->object != ORIGIN_NO_OBJECT ? info->object : origins->object_count + info->origin;
+        if (i == 0 && has_name) return listed;
+        if (has_name) named = info->object;
         if (i < which->depth)
             set = &scene->geometries[set->instances[primitive_ref_index(info->ref)].geometry];
     }
     return named != ORIGIN_NO_OBJECT ? named : listed;
 }
 
+static struct object_place candidate_place(const struct origins *origins, uint32_t candidate) {
+    if (candidate < origins->object_count) return origins->objects[candidate];
+    const struct origin *o = &origins->list[candidate - origins->object_count];
+    return (struct object_place){NULL, scene_kind_name(o->kind), o->line, o->column, o->file};
+}
+
+/* A candidate with its place, to be sorted by that: in the order of the text. */
+struct candidate {
+    struct object_place place;
+    uint32_t number;
+};
+
 static int compare_numbers(uint32_t a, uint32_t b) { return a < b ? -1 : a > b; }
 
-static int compare_places(const struct object_place *a, const struct object_place *b) {
-    int order = compare_numbers(a->file, b->file);
-    if (!order) order = compare_numbers(a->line, b->line);
-    if (!order) order = compare_numbers(a->column, b->column);
-    if (!order) order = strcmp(a->name ? a->name : "", b->name ? b->name : "");
-    return order;
+static int compare_places(const void *a, const void *b) {
+    const struct object_place *p = &((const struct candidate *)a)->place,
+                              *q = &((const struct candidate *)b)->place;
+    int order = compare_numbers(p->file, q->file);
+    if (!order) order = compare_numbers(p->line, q->line);
+    if (!order) order = compare_numbers(p->column, q->column);
+    return order ? order : strcmp(p->name ? p->name : "", q->name ? q->name : "");
 }
 
-/* Objects by place, and of the same place by index. */
-static int compare_objects(const void *a, const void *b) {
-    const struct object_place *p = *(const struct object_place *const *)a,
-                              *q = *(const struct object_place *const *)b;
-    const int order = compare_places(p, q);
-    return order ? order : (p > q) - (p < q);
-}
-
-/* The id of each object by index: from 1 in the order of the scene, one for all that are the same. *highest is the
- * last. */
-static uint32_t *object_ids(const struct scene *scene, struct arena *arena, uint32_t *highest) {
+static struct candidate *list_candidates(const struct scene *scene, struct arena *arena, uint32_t *count) {
     const struct origins *origins = &scene->origins;
-    const uint32_t count = origins->object_count;
-    const struct object_place **sorted = arena_array(arena, count + 1, sizeof *sorted);
-    uint32_t *first = arena_array(arena, count + 1, sizeof *first); /* of those that are the same */
-    uint32_t *ids = arena_array(arena, count + 1, sizeof *ids);
-    for (uint32_t i = 0; i < count; i++) sorted[i] = &origins->objects[i];
-    qsort(sorted, count, sizeof *sorted, compare_objects);
-    for (uint32_t i = 0; i < count; i++) {
-        const uint32_t index = (uint32_t)(sorted[i] - origins->objects);
-        const bool again = i > 0 && compare_places(sorted[i - 1], sorted[i]) == 0;
-        first[index] = again ? first[sorted[i - 1] - origins->objects] : index;
+    const struct primitives *p = &scene->primitives;
+    struct candidate *list =
+        arena_array(arena, (size_t)origins->object_count + origins->count + 1, sizeof *list);
+    bool *listed = arena_array(arena, (size_t)origins->count + 1, sizeof *listed);
+    *count = 0;
+    for (uint32_t i = 0; i < origins->object_count; i++) list[(*count)++].number = i;
+    for (uint32_t i = 0; i < p->count; i++) {
+        const struct primitive_info *info = &p->info[i];
+        if (info->object != ORIGIN_NO_OBJECT || listed[info->origin]) continue;
+        listed[info->origin] = true;
+        list[(*count)++].number = origins->object_count + info->origin;
     }
+    for (uint32_t i = 0; i < *count; i++) list[i].place = candidate_place(origins, list[i].number);
+    return list;
+}
+
+/* The ids of candidates: from 1 in the order of the text, those that are the same sharing one. *highest is the last. */
+static uint32_t *object_ids(const struct scene *scene, struct arena *arena, uint32_t *highest) {
+    uint32_t count;
+    struct candidate *list = list_candidates(scene, arena, &count);
+    uint32_t *ids =
+        arena_array(arena, (size_t)scene->origins.object_count + scene->origins.count + 1, sizeof *ids);
+    qsort(list, count, sizeof *list, compare_places);
     *highest = 0;
-    for (uint32_t i = 0; i < count; i++) ids[i] = first[i] == i ? ++*highest : ids[first[i]];
+    for (uint32_t i = 0; i < count; i++) {
+        *highest += i == 0 || compare_places(&list[i - 1], &list[i]) != 0;
+        ids[list[i].number] = *highest;
+    }
     return ids;
 }
 
@@ -138,7 +159,7 @@ struct surveying {
     struct tracer tracer;
     struct view view;
     struct monge_layers *layers;
-    const uint32_t *object_ids; /* by index of object */
+    const uint32_t *object_ids; /* by candidate */
 };
 
 static uint16_t normal_code(double component) { return (uint16_t)((0.5 * component + 0.5) * 65535.0 + 0.5); }
@@ -180,13 +201,13 @@ static const char *keep(struct arena *arena, const char *text) {
     return text ? arena_text(arena, text, strlen(text)) : NULL;
 }
 
-static struct monge_entry object_entry(const struct scene *scene, struct arena *arena, uint32_t index) {
-    const struct object_place *o = &scene->origins.objects[index];
-    return (struct monge_entry){.name = keep(arena, o->name),
-                                .kind = keep(arena, o->kind),
-                                .file = keep(arena, scene->origins.files[o->file]->name),
-                                .line = o->line + 1,
-                                .column = o->column + 1};
+static struct monge_entry object_entry(const struct scene *scene, struct arena *arena, uint32_t candidate) {
+    const struct object_place o = candidate_place(&scene->origins, candidate);
+    return (struct monge_entry){.name = keep(arena, o.name),
+                                .kind = keep(arena, o.kind),
+                                .file = keep(arena, scene->origins.files[o.file]->name),
+                                .line = o.line + 1,
+                                .column = o.column + 1};
 }
 
 static struct monge_entry material_entry(const struct scene *scene, struct arena *arena, uint32_t index) {
@@ -199,7 +220,7 @@ static struct monge_entry material_entry(const struct scene *scene, struct arena
     return entry;
 }
 
-/* The entries of the ids that pixels have. `index_of` has the index in the scene by id. */
+/* The entries of the ids that pixels have. `index_of` has a candidate by id; NULL: materials. */
 static void list_entries(struct monge_layers *layers, enum monge_layer layer, const struct scene *scene,
                          const uint32_t *index_of, struct arena *scratch) {
     struct layer_entries *entries = &layers->entries[layer];
@@ -218,7 +239,8 @@ static void list_entries(struct monge_layers *layers, enum monge_layer layer, co
 }
 
 static void list_objects(const struct surveying *sv, struct arena *scratch) {
-    const uint32_t count = sv->tracer.scene->origins.object_count;
+    const struct origins *origins = &sv->tracer.scene->origins;
+    const uint32_t count = origins->object_count + origins->count;
     uint32_t *index_of = arena_array(scratch, (size_t)count + 1, sizeof *index_of);
     for (uint32_t i = count; i-- > 0;) index_of[sv->object_ids[i]] = i;
     list_entries(sv->layers, MONGE_LAYER_OBJECT, sv->tracer.scene, index_of, scratch);

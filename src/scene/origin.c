@@ -17,7 +17,7 @@ static bool same_name(const char *a, const char *b) { return a == b || (a && b &
 
 static bool same_origin(const struct origin *a, const struct origin *b) {
     return a->line == b->line && a->column == b->column && a->file == b->file && a->template == b->template &&
-           a->kind == b->kind && a->object == b->object && same_name(a->name, b->name);
+           a->kind == b->kind && same_name(a->name, b->name);
 }
 
 /* The last one is in most cases the one. */
@@ -57,13 +57,12 @@ uint32_t origins_add_object(struct origins *origins, struct arena *arena, struct
                             const char *kind, const char *used) {
     const uint32_t file = origins_file(origins, arena, span.source);
     uint32_t *recent = recent_of(origins->recent_objects, span);
-    const struct object_place *there =
-        *recent < origins->object_count ? &origins->objects[*recent] : NULL;
+    const struct object_place *there = *recent < origins->object_count ? &origins->objects[*recent] : NULL;
     if (there && there->line == span.line && there->column == span.column && there->file == file &&
         same_name(there->name, name))
         return *recent;
-    origins->objects = grow(arena, origins->objects, origins->object_count, &origins->object_room,
-                            sizeof *origins->objects);
+    origins->objects =
+        grow(arena, origins->objects, origins->object_count, &origins->object_room, sizeof *origins->objects);
     origins->objects[origins->object_count] =
         (struct object_place){.name = name ? arena_text(arena, name, strlen(name)) : NULL,
                               .kind = used ? arena_format(arena, "%s %s", kind, used) : kind,

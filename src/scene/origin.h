@@ -11,7 +11,8 @@
 #include "base/source.h"
 
 #define ORIGIN_NO_TEMPLATE UINT32_MAX
-#define ORIGIN_NO_OBJECT   UINT32_MAX
+#define ORIGIN_NO_OBJECT                                                                                     \
+    UINT32_MAX /* of a primitive: the shape itself; in a geometry, that of the instance */
 
 struct origin {
     const char *name; /* the object's, or that of the innermost group or use around with one; NULL: none */
@@ -19,11 +20,11 @@ struct origin {
     uint32_t file : 24;    /* index into origins.files */
     uint32_t kind : 8;     /* of the shape: of grammar_kinds; of a use: KIND_TEMPLATE */
     uint32_t template;     /* index of the innermost template that it stands in, or ORIGIN_NO_TEMPLATE */
-    uint32_t object;       /* index into origins.objects; ORIGIN_NO_OBJECT: in a geometry, the instance's */
 };
 
 /* What an author would call an object: the innermost with a name of those in the scene's own list and its groups;
- * else the innermost with a name within templates; else the shape or the use that the list has. */
+ * else the innermost with a name within templates; else the use that the list has, or the shape, which is not kept
+ * here: its origin tells all of it. */
 struct object_place {
     const char *name;      /* NULL: none */
     const char *kind;      /* "sphere", "group", "use of leg" */

@@ -82,6 +82,7 @@ struct primitive_info {
     uint32_t material; /* index into the scene's materials; of a geometry's also MATERIAL_INHERITED;
                           of an instance not used: it has its own */
     uint32_t origin;   /* index into the scene's origins: the object that it came from */
+    uint32_t object;   /* index into its objects: what it belongs to; or ORIGIN_NO_OBJECT */
 };
 
 /* The material of the innermost instance around that has one. */

@@ -43,7 +43,8 @@ static void find_differences(const struct rendered *a, const struct rendered *b,
     for (int i = 0; i < PIXELS; i++) {
         differs[i] = 0;
         for (int c = 3 * i; c < 3 * i + 3; c++)
-            differs[i] |= encode_channel(p[c], MONGE_ENCODING_SRGB, 8) != encode_channel(q[c], MONGE_ENCODING_SRGB, 8);
+            differs[i] |=
+                encode_channel(p[c], MONGE_ENCODING_SRGB, 8) != encode_channel(q[c], MONGE_ENCODING_SRGB, 8);
     }
 }
 
@@ -71,21 +72,25 @@ struct row {
 static struct row rows[] = {
     {"nothing", HEAD SCENE FLOOR BALL BOX, HEAD SCENE FLOOR BALL BOX, "", 0},
     {"a ball has moved", HEAD SCENE FLOOR BALL BOX,
-     HEAD SCENE FLOOR "  - {name: ball, sphere: {center: [-1.5, 1, 0.6]}, material: {ambient: red, diffuse: red}}\n" BOX,
+     HEAD SCENE FLOOR
+     "  - {name: ball, sphere: {center: [-1.5, 1, 0.6]}, material: {ambient: red, diffuse: red}}\n" BOX,
      "object \"ball\" (scene.yaml:5): geometry moved\n"
      "object \"floor\" (scene.yaml:4): shadow changed\n",
      0},
     {"in front of another", HEAD SCENE FLOOR BALL BOX,
-     HEAD SCENE FLOOR "  - {name: ball, sphere: {center: [0.8, 1, 2]}, material: {ambient: red, diffuse: red}}\n" BOX,
+     HEAD SCENE FLOOR
+     "  - {name: ball, sphere: {center: [0.8, 1, 2]}, material: {ambient: red, diffuse: red}}\n" BOX,
      "object \"ball\" (scene.yaml:5): geometry moved\n"
      "object \"floor\" (scene.yaml:4): shadow changed\n",
      0},
     {"another colour", HEAD SCENE FLOOR BALL BOX,
-     HEAD SCENE FLOOR "  - {name: ball, sphere: {center: [-1.5, 1, 0]}, material: {ambient: red, diffuse: lime}}\n" BOX,
+     HEAD SCENE FLOOR
+     "  - {name: ball, sphere: {center: [-1.5, 1, 0]}, material: {ambient: red, diffuse: lime}}\n" BOX,
      "object \"ball\" (scene.yaml:5): shading changed, geometry equal\n", 0},
-    {"a named material for another", "materials: {a: {diffuse: red}, b: {diffuse: lime}}\n" HEAD SCENE FLOOR
-                                     "  - {name: ball, sphere: {center: [0, 1, 0]}, material: a}\n  - {sphere: "
-                                     "{center: [2, 1, 0], radius: 0.2}, material: b}\n",
+    {"a named material for another",
+     "materials: {a: {diffuse: red}, b: {diffuse: lime}}\n" HEAD SCENE FLOOR
+     "  - {name: ball, sphere: {center: [0, 1, 0]}, material: a}\n  - {sphere: "
+     "{center: [2, 1, 0], radius: 0.2}, material: b}\n",
      "materials: {a: {diffuse: red}, b: {diffuse: lime}}\n" HEAD SCENE FLOOR
      "  - {name: ball, sphere: {center: [0, 1, 0]}, material: b}\n  - {sphere: {center: [2, 1, 0], radius: "
      "0.2}, material: b}\n",
@@ -107,16 +112,19 @@ static struct row rows[] = {
      "object \"ball\" (scene.yaml:5): shadow changed\n",
      0},
     {"lines have shifted, one of three without names has moved",
-     HEAD SCENE "  - sphere: {center: [-2, 1, 0], radius: 0.7}\n  - sphere: {center: [0, 1, 0], radius: 0.7}\n"
-                "  - sphere: {center: [2, 1, 0], radius: 0.7}\n",
+     HEAD SCENE
+     "  - sphere: {center: [-2, 1, 0], radius: 0.7}\n  - sphere: {center: [0, 1, 0], radius: 0.7}\n"
+     "  - sphere: {center: [2, 1, 0], radius: 0.7}\n",
      "# a line\n\n" HEAD SCENE
      "  - sphere: {center: [-2, 1, 0], radius: 0.7}\n  - sphere: {center: [0, 1.8, 0], radius: 0.7}\n"
      "  - sphere: {center: [2, 1, 0], radius: 0.7}\n",
      "sphere (scene.yaml:7): geometry moved\n", 0},
     {"one is new before the others of its kind",
-     HEAD SCENE "  - sphere: {center: [-2, 1, 0], radius: 0.7}\n  - sphere: {center: [0, 1, 0], radius: 0.7}\n",
-     HEAD SCENE "  - sphere: {center: [2, 1, 0], radius: 0.7}\n"
-                "  - sphere: {center: [-2, 1, 0], radius: 0.7}\n  - sphere: {center: [0, 1, 0], radius: 0.7}\n",
+     HEAD SCENE
+     "  - sphere: {center: [-2, 1, 0], radius: 0.7}\n  - sphere: {center: [0, 1, 0], radius: 0.7}\n",
+     HEAD SCENE
+     "  - sphere: {center: [2, 1, 0], radius: 0.7}\n"
+     "  - sphere: {center: [-2, 1, 0], radius: 0.7}\n  - sphere: {center: [0, 1, 0], radius: 0.7}\n",
      "sphere (scene.yaml:4): appeared\n", 0},
     {"another name", HEAD SCENE FLOOR BALL,
      HEAD SCENE FLOOR
@@ -128,20 +136,20 @@ static struct row rows[] = {
      HEAD SCENE "  - {name: mirror, sphere: {center: [0, 1, 0]}, material: {diffuse: black, reflection: 1}}\n"
                 "  - {name: far, sphere: {center: [1, 1, 12]}, material: {ambient: red}}\n",
      "object \"mirror\" (scene.yaml:4): shading changed, geometry equal\n", 0},
-    {"the background", "image: {background: black}\n" HEAD SCENE BALL, "image: {background: navy}\n" HEAD SCENE BALL,
-     "background: colour changed\n", 0},
-    {"of a template in use, the use", TOWER HEAD SCENE
-                                      "  - {use: tower, transform: [{translate: [-2, 0, 0]}]}\n"
-                                      "  - {use: tower, transform: [{translate: [1, 0, 0]}]}\n",
-     TOWER HEAD SCENE
-     "  - {use: tower, transform: [{translate: [-2, 0, 0]}]}\n"
-     "  - {use: tower, transform: [{translate: [2, 0, 0]}]}\n",
+    {"the background", "image: {background: black}\n" HEAD SCENE BALL,
+     "image: {background: navy}\n" HEAD SCENE BALL, "background: colour changed\n", 0},
+    {"of a template in use, the use",
+     TOWER HEAD SCENE "  - {use: tower, transform: [{translate: [-2, 0, 0]}]}\n"
+                      "  - {use: tower, transform: [{translate: [1, 0, 0]}]}\n",
+     TOWER HEAD SCENE "  - {use: tower, transform: [{translate: [-2, 0, 0]}]}\n"
+                      "  - {use: tower, transform: [{translate: [2, 0, 0]}]}\n",
      "use of tower (scene.yaml:6): geometry moved\n", 0},
     {"of a template that is shared, the use",
      STACK HEAD SCENE "  - {use: stack, transform: [{translate: [-2, 0, 0]}]}\n"
                       "  - {name: right, use: stack, transform: [{translate: [1, 0, 0]}]}\n",
-     STACK HEAD SCENE "  - {use: stack, transform: [{translate: [-2.5, 0, 0]}]}\n"
-                      "  - {name: right, use: stack, material: {diffuse: red}, transform: [{translate: [1, 0, 0]}]}\n",
+     STACK HEAD SCENE
+     "  - {use: stack, transform: [{translate: [-2.5, 0, 0]}]}\n"
+     "  - {name: right, use: stack, material: {diffuse: red}, transform: [{translate: [1, 0, 0]}]}\n",
      "use of stack (scene.yaml:5): geometry moved\n"
      "object \"right\" (scene.yaml:6): shading changed, geometry equal\n",
      0},
@@ -159,9 +167,11 @@ static struct row rows[] = {
      "object \"a\" (scene.yaml:4): geometry moved\n",
      0},
     {"something thin beside what has changed too",
-     HEAD SCENE FLOOR "  - {name: wire, cylinder: {from: [0, 0, 0], to: [0, 2, 0], radius: 0.05}, material: {ambient: red}}\n",
+     HEAD SCENE FLOOR
+     "  - {name: wire, cylinder: {from: [0, 0, 0], to: [0, 2, 0], radius: 0.05}, material: {ambient: red}}\n",
      HEAD SCENE "  - {name: floor, plane: {normal: [0, 1, 0]}, material: {ambient: white, diffuse: '#888'}}\n"
-                "  - {name: wire, cylinder: {from: [0, 0, 0], to: [0, 2, 0], radius: 0.05}, material: {ambient: lime}}\n",
+                "  - {name: wire, cylinder: {from: [0, 0, 0], to: [0, 2, 0], radius: 0.05}, material: "
+                "{ambient: lime}}\n",
      "object \"floor\" (scene.yaml:4): shading changed, geometry equal\n"
      "object \"wire\" (scene.yaml:5): shading changed, geometry equal\n",
      0},
@@ -211,12 +221,13 @@ static void test_row(void **state) {
 
 static void test_bounds(void **state) {
     (void)state;
-    static const char older[] = "camera: {projection: orthographic, eye: [0, 0, 5], look_at: [0, 0, 0], height: 7.2}\n"
-                                "scene: [{square: {center: [-3, 0, 0], size: 2}}, {sphere: {center: [3, 3, 0], "
-                                "radius: 0.5}}]\n",
-                      newer[] = "camera: {projection: orthographic, eye: [0, 0, 5], look_at: [0, 0, 0], height: 7.2}\n"
-                                "scene: [{square: {center: [-3, 0, 0], size: 2}, material: {diffuse: red}}, {sphere: "
-                                "{center: [3, 2, 0], radius: 0.5}}]\n";
+    static const char
+        older[] = "camera: {projection: orthographic, eye: [0, 0, 5], look_at: [0, 0, 0], height: 7.2}\n"
+                  "scene: [{square: {center: [-3, 0, 0], size: 2}}, {sphere: {center: [3, 3, 0], "
+                  "radius: 0.5}}]\n",
+        newer[] = "camera: {projection: orthographic, eye: [0, 0, 5], look_at: [0, 0, 0], height: 7.2}\n"
+                  "scene: [{square: {center: [-3, 0, 0], size: 2}, material: {diffuse: red}}, {sphere: "
+                  "{center: [3, 2, 0], radius: 0.5}}]\n";
     struct rendered a = render(older, MONGE_LAYERS_ALL), b = render(newer, MONGE_LAYERS_ALL);
     static uint8_t differs[PIXELS];
     struct monge_change changes[2];
@@ -334,7 +345,8 @@ static void test_files(void **state) {
     assert_true(monge_changes(p, of_p, q, of_q, &loose, changes, ROOM, &count, diag));
     assert_int_equal(count, 1);
     assert_int_equal(monge_diagnostics_failures(diag), 0);
-    assert_false(monge_changes(p, of_p, q, of_p, &how, changes, ROOM, &count, diag)); /* passes of another picture */
+    assert_false(
+        monge_changes(p, of_p, q, of_p, &how, changes, ROOM, &count, diag)); /* passes of another picture */
     assert_int_equal(monge_diagnostics_failures(diag), 1);
     monge_layers_free(of_p);
     monge_layers_free(of_q);
@@ -363,8 +375,9 @@ static void test_causes(void **state) {
     assert_causes(first, first, "the scene's text, the options and the program are the same");
     assert_causes(first, (struct monge_stamp){"p1", "s2", "t2", ""},
                   "the scene's text differs; the options and the program are the same");
-    assert_causes(first, (struct monge_stamp){"p1", "s1", "t2", ""},
-                  "the scene's text, but not what it means, differs; the options and the program are the same");
+    assert_causes(
+        first, (struct monge_stamp){"p1", "s1", "t2", ""},
+        "the scene's text, but not what it means, differs; the options and the program are the same");
     assert_causes(first, (struct monge_stamp){"p2", "s1", "t1", "--samples 4"},
                   "the options and the program differ; the scene's text is the same");
     assert_causes(first, (struct monge_stamp){"p1", "s1", "t1", NULL},
@@ -378,9 +391,10 @@ int main(void) {
     size_t count = 0;
     for (size_t i = 0; i < COUNT(rows); i++)
         tests[count++] = (struct CMUnitTest){rows[i].name, test_row, NULL, NULL, &rows[i]};
-    const struct CMUnitTest others[] = {cmocka_unit_test(test_bounds), cmocka_unit_test(test_refused), cmocka_unit_test(test_tolerance),
-                                        cmocka_unit_test(test_causes),
-                                        cmocka_unit_test_setup_teardown(test_files, enter_folder, leave_folder)};
+    const struct CMUnitTest others[] = {
+        cmocka_unit_test(test_bounds), cmocka_unit_test(test_refused), cmocka_unit_test(test_tolerance),
+        cmocka_unit_test(test_causes),
+        cmocka_unit_test_setup_teardown(test_files, enter_folder, leave_folder)};
     for (size_t i = 0; i < COUNT(others); i++) tests[count++] = others[i];
     return _cmocka_run_group_tests("changes", tests, count, NULL, NULL);
 }

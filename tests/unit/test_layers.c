@@ -38,25 +38,32 @@ static vec3 normal_at(const struct monge_layers *layers, size_t i) {
     return (vec3){n[0] / 32767.5 - 1.0, n[1] / 32767.5 - 1.0, n[2] / 32767.5 - 1.0};
 }
 
-static const struct monge_entry *entry_at(const struct monge_layers *layers, enum monge_layer layer, size_t i) {
+static const struct monge_entry *entry_at(const struct monge_layers *layers, enum monge_layer layer,
+                                          size_t i) {
     return monge_layers_entry(layers, layer, monge_layers_ids(layers, layer)[i]);
 }
 
 /* ---- One sphere: 5 x 5 pixels, the middle one at (2, 2) ---- */
 
-#define LIT "lights: [{point: {at: [0, 0, 50]}}, {ambient: {}}, {point: {at: [0, 50, 0]}}, {point: {at: [0, 0, -50]}}]\n"
+#define LIT                                                                                                  \
+    "lights: [{point: {at: [0, 0, 50]}}, {ambient: {}}, {point: {at: [0, 50, 0]}}, {point: {at: [0, 0, "     \
+    "-50]}}]\n"
 #define PERSPECTIVE  "camera: {eye: [0, 0, 10], look_at: [0, 0, 0], fov: 20}\n"
 #define ORTHOGRAPHIC "camera: {projection: orthographic, eye: [0, 0, 10], look_at: [0, 0, 0], height: 5}\n"
 
 static void check_sphere(const char *camera) {
     char text[500];
-    snprintf(text, sizeof text, "%smaterials: {jade: {diffuse: lime}}\n%sscene: [{sphere: {radius: 1.25}, material: jade, name: ball}]\n", camera, LIT);
+    snprintf(text, sizeof text,
+             "%smaterials: {jade: {diffuse: lime}}\n%sscene: [{sphere: {radius: 1.25}, material: jade, name: "
+             "ball}]\n",
+             camera, LIT);
     struct monge_layers *layers = render_good(text, 5, 5);
     const enum { MIDDLE = 12, CORNER = 0 } middle = MIDDLE;
     assert_int_equal(monge_layers_set(layers), MONGE_LAYERS_ALL);
     assert_near((double)monge_layers_depth(layers)[middle], 8.75, 1e-6, "depth");
     assert_vec3_near(normal_at(layers, middle), (vec3){0, 0, 1}, 2e-5, "normal");
-    assert_int_equal(monge_layers_lights(layers)[middle], 1); /* the second is at its horizon, the third behind */
+    assert_int_equal(monge_layers_lights(layers)[middle],
+                     1); /* the second is at its horizon, the third behind */
     const struct monge_entry *object = entry_at(layers, MONGE_LAYER_OBJECT, middle),
                              *material = entry_at(layers, MONGE_LAYER_MATERIAL, middle);
     assert_string_equal(object->name, "ball");
@@ -98,7 +105,8 @@ static void test_orthographic(void **state) {
 static void test_planar_depth(void **state) {
     (void)state;
     struct monge_layers *layers = render_good(
-        "camera: {eye: [0, 0, 10], look_at: [0, 0, 0], fov: 90}\nscene: [{plane: {normal: [0, 0, -1]}}]\n", 8, 6);
+        "camera: {eye: [0, 0, 10], look_at: [0, 0, 0], fov: 90}\nscene: [{plane: {normal: [0, 0, -1]}}]\n", 8,
+        6);
     for (size_t i = 0; i < 48; i++) {
         assert_near((double)monge_layers_depth(layers)[i], 10.0, 1e-5, "depth of a wall");
         assert_vec3_near(normal_at(layers, i), (vec3){0, 0, 1}, 2e-5, "the side that is seen");
@@ -133,29 +141,37 @@ struct object_row {
     const char *left, *right; /* "name|kind|line" of what stands there */
 };
 
-#define STACK "define: {stack: {objects: [{for: {i: 20}, sphere: {radius: 1}}]},\n  single: {objects: [{sphere: {}}]},\n"                                 \
-    "  parts: {objects: [{name: part, sphere: {}}]},\n  many: {objects: [{for: {i: 20}, sphere: {radius: 0.5}}, {name: part, sphere: {}}]}}\n"
+#define STACK                                                                                                \
+    "define: {stack: {objects: [{for: {i: 20}, sphere: {radius: 1}}]},\n  single: {objects: [{sphere: "      \
+    "{}}]},\n"                                                                                               \
+    "  parts: {objects: [{name: part, sphere: {}}]},\n  many: {objects: [{for: {i: 20}, sphere: {radius: "   \
+    "0.5}}, {name: part, sphere: {}}]}}\n"
 #define LEFT  ", transform: [{translate: [-2, 0, 0]}]}\n"
 #define RIGHT ", transform: [{translate: [2, 0, 0]}]}\n"
 
 static struct object_row object_rows[] = {
-    {"shapes", "scene:\n  - {sphere: {}" LEFT "  - {box: {min: [-1, -1, -1], max: [1, 1, 1]}" RIGHT, "|sphere|2", "|box|3"},
-    {"a named group", "scene:\n  - name: pair\n    group:\n      - {sphere: {}" LEFT "      - {sphere: {}" RIGHT,
+    {"shapes", "scene:\n  - {sphere: {}" LEFT "  - {box: {min: [-1, -1, -1], max: [1, 1, 1]}" RIGHT,
+     "|sphere|2", "|box|3"},
+    {"a named group",
+     "scene:\n  - name: pair\n    group:\n      - {sphere: {}" LEFT "      - {sphere: {}" RIGHT,
      "pair|group|2", "pair|group|2"},
-    {"the innermost name", "scene:\n  - name: pair\n    group:\n      - {sphere: {}" LEFT "      - {name: own, sphere: {}" RIGHT,
+    {"the innermost name",
+     "scene:\n  - name: pair\n    group:\n      - {sphere: {}" LEFT "      - {name: own, sphere: {}" RIGHT,
      "pair|group|2", "own|sphere|5"},
-    {"a group without a name", "scene:\n  - group:\n      - {sphere: {}" LEFT "      - {sphere: {}" RIGHT, "|sphere|3",
-     "|sphere|4"},
-    {"a loop", "scene:\n  - {for: {i: 2}, sphere: {}, transform: [{translate: ['4 * i - 2', 0, 0]}]}\n", "|sphere|2", "|sphere|2"},
-    {"uses carried out", STACK "scene:\n  - {use: single" LEFT "  - {name: right, use: single" RIGHT, "|use of single|6",
-     "right|use of single|7"},
-    {"uses of a geometry", STACK "scene:\n  - {use: stack" LEFT "  - {name: right, use: stack" RIGHT, "|use of stack|6",
-     "right|use of stack|7"},
-    {"a name within a template", STACK "scene:\n  - {use: parts" LEFT "  - {name: right, use: parts" RIGHT, "part|sphere|3",
-     "right|use of parts|7"},
-    {"a name within a geometry", STACK "scene:\n  - {use: many" LEFT "  - {name: right, use: many" RIGHT, "part|sphere|4",
-     "right|use of many|7"},
-    {"a use in a named group", STACK "scene:\n  - name: pair\n    group:\n      - {use: stack" LEFT "      - {use: single" RIGHT,
+    {"a group without a name", "scene:\n  - group:\n      - {sphere: {}" LEFT "      - {sphere: {}" RIGHT,
+     "|sphere|3", "|sphere|4"},
+    {"a loop", "scene:\n  - {for: {i: 2}, sphere: {}, transform: [{translate: ['4 * i - 2', 0, 0]}]}\n",
+     "|sphere|2", "|sphere|2"},
+    {"uses carried out", STACK "scene:\n  - {use: single" LEFT "  - {name: right, use: single" RIGHT,
+     "|use of single|6", "right|use of single|7"},
+    {"uses of a geometry", STACK "scene:\n  - {use: stack" LEFT "  - {name: right, use: stack" RIGHT,
+     "|use of stack|6", "right|use of stack|7"},
+    {"a name within a template", STACK "scene:\n  - {use: parts" LEFT "  - {name: right, use: parts" RIGHT,
+     "part|sphere|3", "right|use of parts|7"},
+    {"a name within a geometry", STACK "scene:\n  - {use: many" LEFT "  - {name: right, use: many" RIGHT,
+     "part|sphere|4", "right|use of many|7"},
+    {"a use in a named group",
+     STACK "scene:\n  - name: pair\n    group:\n      - {use: stack" LEFT "      - {use: single" RIGHT,
      "pair|group|6", "pair|group|6"},
 };
 
@@ -184,9 +200,13 @@ static void test_objects(void **state) {
 static void test_long_loop(void **state) {
     (void)state;
     static char text[40000];
-    int length = snprintf(text, sizeof text, ORTHOGRAPHIC "scene:\n  - for: {i: 2}\n    transform: [{translate: ['4 * i - 2', 0, 0]}]\n    group:\n");
+    int length =
+        snprintf(text, sizeof text,
+                 ORTHOGRAPHIC
+                 "scene:\n  - for: {i: 2}\n    transform: [{translate: ['4 * i - 2', 0, 0]}]\n    group:\n");
     for (int k = 0; k < 600; k++)
-        length += snprintf(text + length, sizeof text - (size_t)length, "      - sphere: {radius: %s}\n", k ? "0.1" : "1");
+        length += snprintf(text + length, sizeof text - (size_t)length, "      - sphere: {radius: %s}\n",
+                           k ? "0.1" : "1");
     struct monge_layers *layers = render_good(text, 5, 5);
     const uint32_t *ids = monge_layers_ids(layers, MONGE_LAYER_OBJECT);
     assert_int_equal(ids[10], 1);
@@ -202,7 +222,8 @@ static void test_long_loop(void **state) {
     "scene:\n  - {for: {x: 7, y: 7}, sphere: {center: ['x - 3', 'y - 3', 0], radius: 0.3 + 0.02 * x}}\n"     \
     "  - {name: last, box: {}, transform: [{translate: [0.5, 0.5, 1]}]}\n"
 
-static void assert_same_pixel(const struct monge_layers *a, size_t i, const struct monge_layers *b, size_t j) {
+static void assert_same_pixel(const struct monge_layers *a, size_t i, const struct monge_layers *b,
+                              size_t j) {
     assert_int_equal(a->ids[0][i], b->ids[0][j]);
     assert_int_equal(a->ids[1][i], b->ids[1][j]);
     assert_memory_equal(&a->depth[i], &b->depth[j], sizeof *a->depth);
@@ -214,7 +235,8 @@ static void test_regions(void **state) {
     (void)state;
     const struct monge_region region = {50, 30, 41, 37};
     const struct monge_job one = {.threads = 1}, four = {.threads = 4};
-    struct monge_layers *whole = render(MANY, 100, 80, NULL, &one), *part = render(MANY, 100, 80, &region, &four);
+    struct monge_layers *whole = render(MANY, 100, 80, NULL, &one),
+                        *part = render(MANY, 100, 80, &region, &four);
     const struct monge_region got = monge_layers_region(part);
     assert_memory_equal(&got, &region, sizeof region);
     for (uint32_t y = 0; y < region.height; y++)
@@ -264,7 +286,8 @@ static struct monge_layers *read_back(const char *picture, unsigned wanted, bool
     return layers;
 }
 
-static void assert_same_entries(const struct monge_layers *a, const struct monge_layers *b, enum monge_layer layer) {
+static void assert_same_entries(const struct monge_layers *a, const struct monge_layers *b,
+                                enum monge_layer layer) {
     const struct layer_entries *p = &a->entries[layer], *q = &b->entries[layer];
     assert_int_equal(p->count, q->count);
     for (uint32_t i = 0; i < p->count; i++) {
@@ -314,7 +337,8 @@ static void test_large_numbers(void **state) {
     (void)state;
     bool failed;
     struct monge_layers *layers = layers_new(2, 1, (struct monge_region){0, 0, 2, 1}, MONGE_LAYERS_ALL);
-    static struct monge_entry entries[] = {{1, "a\n\"\\\xc3\xa9", "sphere", "f", 1, 2}, {0x12345678, NULL, "box", NULL, 0, 0}};
+    static struct monge_entry entries[] = {{1, "a\n\"\\\xc3\xa9", "sphere", "f", 1, 2},
+                                           {0x12345678, NULL, "box", NULL, 0, 0}};
     layers->ids[0][0] = 1;
     layers->ids[0][1] = 0x12345678;
     layers->entries[0] = (struct layer_entries){entries, 2, 0x12345678};
@@ -387,8 +411,13 @@ static void test_pfm(void **state) {
     assert_true(width == 2 && height == 2);
     assert_memory_equal(got, values, sizeof values);
     free(got);
-    static const char *const wrong[] = {"", "PF\n1 1\n-1.0\n1234", "Pf\n0 1\n-1.0\n", "Pf\n4294967295 4294967295\n-1\n",
-                                        "Pf\n1 1\n-1.0\n123", "Pf\n1 1\n-1.0\n12345", "Pf\n3 2\n-1\n"};
+    static const char *const wrong[] = {"",
+                                        "PF\n1 1\n-1.0\n1234",
+                                        "Pf\n0 1\n-1.0\n",
+                                        "Pf\n4294967295 4294967295\n-1\n",
+                                        "Pf\n1 1\n-1.0\n123",
+                                        "Pf\n1 1\n-1.0\n12345",
+                                        "Pf\n3 2\n-1\n"};
     for (size_t i = 0; i < COUNT(wrong); i++) {
         write_bytes("c.pfm", wrong[i], strlen(wrong[i]));
         assert_false(pfm_read("c.pfm", 4, &width, &height, &got, message, sizeof message));
@@ -406,7 +435,9 @@ static void test_tables(void **state) {
     } texts[] = {
         {"[]", 0},
         {" [ ]\n", 0},
-        {"[{\"id\": 1, \"kind\": \"box\"}, {\"kind\":\"box\",\"id\":7,\"name\":null,\"new\":\"x\",\"newer\":3}]", 2},
+        {"[{\"id\": 1, \"kind\": \"box\"}, "
+         "{\"kind\":\"box\",\"id\":7,\"name\":null,\"new\":\"x\",\"newer\":3}]",
+         2},
         {"[{\"id\": 1, \"kind\": \"\\u00e9\\ud800\\/\\n\"}]", 1},
         {"", -1},
         {"[", -1},
