@@ -15,9 +15,10 @@ JOBS = $(eval JOBS := $(shell getconf _NPROCESSORS_ONLN 2>/dev/null || echo 1))$
 
 # The folders of src/ in their order: each uses those before it, never those after.
 STATIONS := base lang scene shape accel render image cli
-# Where the tests of editors have their packages; the same for all variants of the build.
+# Where the tests of editors and of reports have their packages; the same for all variants of the build.
 export NODE_FOLDER ?= $(abspath $(BUILD))/editor
-LIBRARIES := yaml-0.1 libpng sleef
+export BROWSER_FOLDER ?= $(abspath $(BUILD))/browser
+LIBRARIES := yaml-0.1 libpng libdeflate sleef
 
 # ---- Flags ----
 
@@ -46,12 +47,12 @@ STORIES := $(BUILD)/gen/stories
 endif
 
 # Which program it is: a hash of all that it is made from.
-PROGRAM_SOURCES := $(sort $(wildcard src/*.[ch] src/*/*.[ch] grammar/*.yaml tools/grammar/*.[ch] tools/diagnostics.c)) scenes/presets.yaml
+PROGRAM_SOURCES := $(sort $(wildcard src/*.[ch] src/*/*.[ch] src/cli/page/* tools/embed grammar/*.yaml tools/grammar/*.[ch] tools/diagnostics.c)) scenes/presets.yaml
 IDENTITY := $(BUILD)/gen/program
 
 object = $(patsubst %.c,$(BUILD)/obj/%.o,$(1))
 OBJECTS := $(call object,$(filter-out src/cli/%,$(SOURCES))) $(patsubst $(BUILD)/%,$(BUILD)/obj/%.o,$(GRAMMAR) $(STORIES) $(IDENTITY))
-CLI_OBJECTS := $(call object,$(filter src/cli/%,$(SOURCES)))
+CLI_OBJECTS := $(call object,$(filter src/cli/%,$(SOURCES))) $(BUILD)/obj/gen/page.o
 TOOL_OBJECTS := $(call object,$(wildcard src/base/*.c src/lang/yaml.c src/lang/events.c src/lang/spelling.c))
 
 UNIT_PROGRAMS := $(UNIT:tests/unit/%.c=$(BUILD)/tests/%)
@@ -72,7 +73,7 @@ SUBMAKE = $(MAKE) --no-print-directory $(if $(findstring -j,$(MAKEFLAGS)),,-j$(J
 # ---- What people ask for ----
 
 .DEFAULT_GOAL := all
-.PHONY: editor-deps all demo test check tsan same fuzz coverage bench reference format lint deps install uninstall clean help
+.PHONY: node-deps all demo test check tsan same kill fuzz coverage bench reference format lint deps install uninstall clean help
 
 all: ## build the program, build/monge
 	@tools/deps --check
@@ -86,17 +87,17 @@ demo: deps ## render the scenes of scenes/report/, and the chess board, to out/
 	$(BUILD)/monge render -o out/ scenes/gallery/chess.yaml
 	@echo "The pictures are in $(CURDIR)/out"
 
-test: deps editor-deps ## run all tests; T=name runs tests/unit/test_name.c or tests/name.sh alone
+test: deps node-deps ## run all tests; T=name runs tests/unit/test_name.c or tests/name.sh alone
 	+@$(SUBMAKE) run-tests EXTRA_TESTS=$(if $(T),,tools/includes)
 
 SANITIZE := -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
-check: deps editor-deps ## the tests under the address and undefined-behaviour sanitizers, in a hostile build; with clang too
+check: deps node-deps ## the tests under the address and undefined-behaviour sanitizers, in a hostile build; with clang too
 	+@$(SUBMAKE) run-tests BUILD=$(BUILD)/check VARIANT="-O1 $(SANITIZE) -DMONGE_HOSTILE"
 	@if tools/deps --sanitizes clang; then echo "With clang:"; else echo "No clang here: gcc alone."; fi
 	+@if tools/deps --sanitizes clang; then $(SUBMAKE) run-tests CC=clang BUILD=$(BUILD)/check-clang \
 	    VARIANT="-O1 $(SANITIZE) -DMONGE_HOSTILE"; fi
 
-tsan: deps editor-deps ## the tests under the thread sanitizer
+tsan: deps node-deps ## the tests under the thread sanitizer
 	+@$(SUBMAKE) run-tests BUILD=$(BUILD)/tsan VARIANT="-O1 -fsanitize=thread"
 
 same: all ## that the golden pictures are the same from other compilers and optimization levels
@@ -107,10 +108,13 @@ same: all ## that the golden pictures are the same from other compilers and opti
 	+@if command -v clang >/dev/null; then $(SUBMAKE) build-program BUILD=$(BUILD)/same/clang CC=clang CFLAGS=-O2 && \
 	    tests/goldens.sh $(BUILD)/same/clang/monge; fi
 
+kill: all ## kill batches at 200 random moments, and look at what they leave
+	KILLS=200 tests/kill.sh $(BUILD)/monge
+
 fuzz: deps ## a minute of hostile bytes for the loader (libFuzzer where clang has it)
 	tests/fuzz/run.sh 60 $(BUILD)/fuzz
 
-coverage: deps editor-deps ## the tests with gcc's line coverage, per file of src/; fails below 90 %, or at an error that no test makes
+coverage: deps node-deps ## the tests with gcc's line coverage, per file of src/; fails below 90 %, or at an error that no test makes
 	@find $(BUILD)/coverage -name '*.gcda' -delete 2>/dev/null || true
 	+@$(SUBMAKE) run-tests CC=gcc CFLAGS="-O0 -g" BUILD=$(BUILD)/coverage VARIANT="--coverage -fprofile-update=atomic"
 	@tools/coverage $(BUILD)/coverage 90
@@ -136,9 +140,10 @@ lint: ## compile everything with warnings as errors, with clang too
 deps: ## install what the build needs and is not there
 	@tools/deps
 
-# Node and its packages, for the tests of editors alone; without T=, or for the one that needs them.
-editor-deps:
+# Node, Chromium and their packages, for the tests of editors and reports alone; without T=, or for the one that needs them.
+node-deps:
 	@case '$(T)' in '' | schema) tools/deps --editor $(NODE_FOLDER) ;; esac
+	@case '$(T)' in '' | page) tools/deps --browser $(BROWSER_FOLDER) ;; esac
 
 help: ## this list
 	@echo "Monge $(VERSION). Targets:"
@@ -174,7 +179,7 @@ install: all ## to PREFIX (under DESTDIR): program, library, manual page, comple
 	$(BUILD)/monge help --completion zsh > $(ZSH_COMPLETION)
 	$(BUILD)/monge help --completion fish > $(FISH_COMPLETION)
 	install -m 644 $(DOCS) $(SHARE)/doc/monge
-	install -m 644 grammar/scene.schema.json $(SHARE)/monge/scene.schema.json
+	install -m 644 grammar/scene.schema.json grammar/golden.schema.json $(SHARE)/monge
 
 uninstall: ## remove what install put there
 	rm -f $(BIN)/monge $(LIB)/libmonge.a $(LIB)/pkgconfig/monge.pc $(INCLUDE)/monge.h $(SHARE)/man/man1/monge.1 \
@@ -225,6 +230,11 @@ $(BUILD)/tools/diagnostics: $(call object,tools/diagnostics.c src/lang/file.c) $
 	@mkdir -p $(@D)
 	$(call say,link,$@)
 	$(QUIET)$(LINK) -o $@ $^ $(LIBS)
+
+$(BUILD)/gen/page.c: tools/embed $(wildcard src/cli/page/*)
+	@mkdir -p $(@D)
+	$(call say,gen,$@)
+	$(QUIET)tools/embed src/cli/page > $@
 
 $(BUILD)/gen/program.c: $(PROGRAM_SOURCES)
 	@mkdir -p $(@D)

@@ -107,11 +107,24 @@ static bool read_all(struct lang_input input, struct outline **outline, struct d
     return result->file && scene_end(builder, result) && diag->errors == errors;
 }
 
+/* What it says of its tests: to stay when the text goes. */
+static bool keep_tolerance(struct load *load) {
+    struct monge_tolerance *tolerance = &load->scene->tolerance;
+    const struct object_value *object = object_object(load->scene->result.file, KEY_FILE_TOLERANCE);
+    if (!object) return true;
+    const bool good = face_tolerance(load->diag, object, tolerance);
+    tolerance->reason = good ? strdup(tolerance->reason) : NULL;
+    if (good && !tolerance->reason)
+        diag_failure(load->diag, "out-of-memory", "%s: out of memory", load->name);
+    return tolerance->reason;
+}
+
 static bool load_scene(struct load *load) {
     struct monge_scene *scene = load->scene;
     if (!read_input(load) ||
         !read_all(scene->input, load->options.outline ? &scene->outline : NULL, load->diag, &scene->memory,
-                  &scene->body, &scene->scene, &scene->result))
+                  &scene->body, &scene->scene, &scene->result) ||
+        !keep_tolerance(load))
         return false;
     scene->texts_hash = texts_hash(&scene->result);
     scene->included = texts_files(&scene->result);
@@ -279,6 +292,7 @@ void monge_scene_free(struct monge_scene *scene) {
     arena_free(&scene->texts);
     lang_memory_free(&scene->memory);
     free(scene->included);
+    free((char *)scene->tolerance.reason);
     free(scene);
 }
 
@@ -288,6 +302,10 @@ bool monge_files_hash(const char *path, const char *files, const struct monge_li
     const bool good = texts_hash_again(path, files, face_limits(limits).file_bytes, &diag->list, &now);
     if (good) hash_text(&now, hash);
     return good;
+}
+
+void monge_scene_text_hash(const struct monge_scene *scene, char hash[MONGE_HASH_SIZE]) {
+    hash_text(&scene->texts_hash, hash);
 }
 
 size_t monge_scene_primitives(const struct monge_scene *scene) { return scene->scene.primitives.count; }

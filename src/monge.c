@@ -7,11 +7,13 @@
 
 #include "base/diag_write.h"
 #include "base/json.h"
+#include "base/parallel.h"
 #include "base/program.h"
 #include "face.h"
 #include "image/pixels.h"
 #include "image/png.h"
 #include "lang/stories.h"
+#include "render/layers.h"
 #include "render/render.h"
 
 const char *monge_version(void) { return MONGE_VERSION; }
@@ -89,6 +91,14 @@ static struct hash fingerprint(const struct scene *scene, const struct monge_set
     return hash;
 }
 
+unsigned monge_processors(void) { return parallel_processors(); }
+
+void monge_scene_hash(const struct monge_scene *scene, const struct monge_settings *settings,
+                      char hash[MONGE_HASH_SIZE]) {
+    const struct hash made = fingerprint(&scene->scene, settings);
+    hash_text(&made, hash);
+}
+
 /* What its picture says of the scene and of how it was asked for. */
 static bool stamp_film(struct monge_film *film, const struct monge_scene *scene,
                        const struct monge_job *job) {
@@ -115,12 +125,13 @@ struct monge_film *monge_render(struct monge_scene *scene, const struct monge_se
     if (!film) return NULL;
     film->scene = fingerprint(&scene->scene, settings);
     film->texts = scene->texts_hash;
-    const bool done = stamp_film(film, scene, job) &&
-                      render_film(&scene->scene, scene->accel, job ? job : &no_job, film, stats,
-                                  job && job->diag ? &job->diag->list : NULL);
+    const bool done =
+        stamp_film(film, scene, job) && render_film(&scene->scene, scene->accel, job ? job : &no_job, film,
+                                                    stats, job && job->diag ? &job->diag->list : NULL);
     stats->build_seconds = prepared_before ? 0.0 : built - begin;
     stats->render_seconds = seconds() - built;
     if (done) return film;
+    if (job && job->tiles) job->tiles->stopped(job->tiles->context);
     monge_film_free(film);
     return NULL;
 }
@@ -141,4 +152,23 @@ bool monge_film_hash(const struct monge_film *film, char hash[MONGE_HASH_SIZE]) 
 
 void monge_film_scene_hash(const struct monge_film *film, char hash[MONGE_HASH_SIZE]) {
     hash_text(&film->scene, hash);
+}
+
+struct monge_layers *monge_render_layers(struct monge_scene *scene, const struct monge_settings *settings,
+                                         const struct monge_region *region, unsigned wanted,
+                                         const struct monge_job *job) {
+    const struct monge_job no_job = {0};
+    const struct monge_region whole = {0, 0, settings->width, settings->height};
+    if (!region) region = &whole;
+    if (monge_settings_check(settings) || !region_inside(region, settings)) return NULL;
+    if (!monge_scene_prepare(scene)) return NULL;
+    struct monge_layers *layers = layers_new(settings->width, settings->height, *region, wanted);
+    if (!layers) return NULL;
+    const struct hash hash = fingerprint(&scene->scene, settings);
+    hash_text(&hash, layers->scene);
+    if (render_layers(&scene->scene, scene->accel, settings, job ? job : &no_job, layers,
+                      job && job->diag ? &job->diag->list : NULL))
+        return layers;
+    monge_layers_free(layers);
+    return NULL;
 }

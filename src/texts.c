@@ -8,6 +8,7 @@
 #include "lang/file.h"
 #include "lang/format.h"
 #include "lang/import.h"
+#include "lang/node.h"
 
 static bool write_text(const char *text, size_t size, const char *path, struct diagnostics *diag) {
     struct replacement file;
@@ -99,4 +100,45 @@ bool monge_format(const char *name, const struct monge_text *text, const struct 
 
 bool monge_text_write(const char *path, const struct monge_text *text, struct monge_diagnostics *diag) {
     return write_text(text->bytes, text->size, path, &diag->list);
+}
+
+/* ---- What a text is ---- */
+
+static bool forget(void *context, struct node *item) {
+    (void)context, (void)item;
+    return true;
+}
+
+static void ignore(void *context, struct node *root) { (void)context, (void)root; }
+
+static enum monge_text_kind kind_of(const struct node *root) {
+    if (root->kind != NODE_MAPPING || root->count == 0) return MONGE_TEXT_OTHER;
+    if (node_get(root, "scene")) return MONGE_TEXT_SCENE;
+    for (const struct node *key = root->first; key; key = key->next->next)
+        if (key->kind != NODE_SCALAR || grammar_find_key(&grammar_kinds[KIND_FILE], key->text) < 0)
+            return MONGE_TEXT_OTHER;
+    return MONGE_TEXT_DEFINITIONS;
+}
+
+static enum monge_text_kind parse_kind(struct arena *arena, struct diagnostics *diag,
+                                       const struct monge_text *text, const struct monge_limits *given) {
+    const struct node_stream stream = {.key = "scene", .begin = ignore, .item = forget};
+    const struct monge_limits limits = face_limits(given);
+    const struct node_limits node_limits = {(unsigned)limits.nesting, limits.values};
+    struct node_problem problem = {0};
+    arena->limit = limits.memory_bytes;
+    const struct source *source = file_from_memory(arena, "", text->bytes, text->size);
+    const struct node *root = node_parse(arena, diag, source, &node_limits, &stream, &problem);
+    return root ? kind_of(root) : MONGE_TEXT_SCENE;
+}
+
+enum monge_text_kind monge_text_kind(const struct monge_text *text, const struct monge_limits *limits) {
+    struct diagnostics diag = {0};
+    jmp_buf full;
+    struct arena arena = {.on_full = &full};
+    volatile enum monge_text_kind kind = MONGE_TEXT_SCENE;
+    if (setjmp(full) == 0) kind = parse_kind(&arena, &diag, text, limits);
+    arena_free(&arena);
+    diag_free(&diag);
+    return kind;
 }

@@ -172,7 +172,7 @@ exits 0 schema; out_has '"$schema": "http://json-schema.org/draft-07/schema#"'; 
 exits 2 schema x; err_has 'schema: expected nothing more, found `x`'; no_out
 
 exits 0 help --man; out_has '.TH MONGE 1'; out_has '.SH EXIT STATUS'; out_has '.SH SCENES'; out_has 'material: jade'
-for option in output size samples region shading shadow no\\-shadows depth bits encoding threads stats progress format check quiet define frames limit untrusted; do
+for option in output size samples region shading shadow no\\-shadows depth bits encoding aov threads stats progress format check quiet define frames limit untrusted; do
     out_has "\\-\\-$option"
 done
 have man && ok "the manual page has no roff warnings" [ -z "$(LC_ALL=C.UTF-8 man --warnings -l out 2>&1 >/dev/null)" ]
@@ -184,6 +184,7 @@ ok "bash completes a word of scenes" [ "$(complete_bash monge help mat)" = 'mate
 ok "bash completes nothing after schema" [ "$(complete_bash monge schema '')" = ' ' ]
 ok "bash completes an option" [ "$(complete_bash monge render --sh)" = '--shading --shadow ' ]
 ok "bash completes a choice" [ "$(complete_bash monge render --shading '')" = 'diffuse phong signature ' ]
+ok "bash completes a pass" [ "$(complete_bash monge render --aov d)" = 'depth ' ]
 ok "bash completes a choice after =" [ "$(complete_bash monge render --shading = d)" = 'diffuse ' ]
 ok "bash completes a code" [ "$(complete_bash monge explain no-li)" = 'no-light ' ]
 ok "bash completes a scene" [ "$(complete_bash monge check w)" = 'with space.yaml wrong.yaml ' ]
@@ -229,7 +230,7 @@ exits 2 render one.yaml --bits 12; err_has '--bits: expected 8 or 16'
 exits 2 render one.yaml --encoding gamma; err_has '--encoding: expected srgb or linear'
 exits 2 render one.yaml --depth 65; err_has '--depth: expected a whole number from 1 to 64'
 exits 2 render one.yaml --threads 0; err_has '--threads: expected a whole number from 1'
-exits 2 render one.yaml --progress yes; err_has '--progress: expected auto, always or never'
+exits 2 render one.yaml --progress yes; err_has '--progress: expected auto, always, never or json'
 exits 2 render one.yaml --shadow 0.5 --no-shadows; err_has '--shadow and --no-shadows'
 missing one.png
 exits 2 render one.yaml "${small[@]}" --region 10,0,7,1; err_has '--region 10,0,7,1'; err_has '16x12'; missing one.png
@@ -326,6 +327,57 @@ no_temporaries
 ln -s kept.png through.png
 exits 0 render "${small[@]}" one.yaml -o through.png; is_png kept.png; ok "a link stays one" [ -L through.png ]
 
+# ---- Auxiliary passes ----
+
+rm -f one.png
+exits 0 render one.yaml "${small[@]}" -q -o expected.png
+exits 0 render one.yaml "${small[@]}" --aov object,material,depth,normal,shadow; is_png one.png; no_temporaries
+ok "passes change nothing of the picture" cmp one.png expected.png
+for pass in object material normal shadow; do
+    is_png one.$pass.png; png_size one.$pass.png 16 12
+    ok "$pass has 16 bits" [ "$(od -An -tu1 -j24 -N1 one.$pass.png)" -eq 16 ]
+done
+for pass in object material shadow; do ok "$pass is grey" [ "$(od -An -tu1 -j25 -N1 one.$pass.png)" -eq 0 ]; done
+ok "normal is RGB" [ "$(od -An -tu1 -j25 -N1 one.normal.png)" -eq 2 ]
+ok "objects have a table" grep -qa monge:table one.object.png
+ok "materials have a table" grep -qa monge:table one.material.png
+ok "depth is a PFM" [ "$(head -n 3 one.depth.pfm | tr '\n' ' ')" = 'Pf 16 12 -1.0 ' ]
+ok "depth has a float a pixel" [ "$(wc -c <one.depth.pfm)" -eq $((14 + 4 * 16 * 12)) ]
+mkdir passes
+exits 0 render one.yaml "${small[@]}" --threads 1 --samples 7 --aov shadow,normal,depth,material,object -o passes/one.png
+ok "the same depth with one thread and other samples" cmp one.depth.pfm passes/one.depth.pfm
+for pass in object material normal shadow; do
+    ok "the same $pass with one thread and other samples" same_pixels one.$pass.png passes/one.$pass.png
+done
+exits 0 render one.yaml two.yml "${small[@]}" -q --aov depth -o 'passes/p-{name}.png'
+is_png passes/p-two.png; ok "each has its own" [ -s passes/p-one.depth.pfm -a -s passes/p-two.depth.pfm ]
+missing passes/p-one.object.png
+exits 0 render one.yaml "${small[@]}" --region 4,3,5,2 -q --aov depth,normal -o passes/part.png; png_size passes/part.normal.png 5 2
+ok "a part of the depth" [ "$(sed -n 2p passes/part.depth.pfm)" = '5 2' ]
+printf 'animation: {frames: 3}\nscene: [{sphere: {radius: 1 + t}}]\n' >grow.yaml
+exits 0 render grow.yaml "${small[@]}" -q --frames all --aov object -o passes/
+for frame in 0001 0002 0003; do is_png passes/grow-$frame.png; is_png passes/grow-$frame.object.png; done
+exits 0 render one.yaml "${small[@]}" -q --aov depth -o passes/UPPER.PNG; ok "PNG is no part of the name" [ -s passes/UPPER.depth.pfm ]
+
+for bad in beauty object,objct object,object depth, ,depth '' object,,depth Depth; do
+    exits 2 render one.yaml --aov "$bad"; err_has "--aov: expected some of object, material, depth, normal and shadow"; err_has "found \`$bad\`"
+done
+exits 2 render one.yaml --aov depth -o -; err_has '--aov: passes are files beside the picture; give -o FILE'; no_out
+exits 2 render - --aov depth; err_has 'give -o FILE'
+[ -e null ] && exits 2 render one.yaml --aov depth -o null && err_has 'which null is not'
+cp one.yaml clash.yaml; cp one.yaml clash.object.yaml; rm -f clash*.png
+exits 2 render clash.yaml clash.object.yaml --aov object; err_has 'would both write'; err_has 'clash.object.png'; missing clash.png
+exits 0 render clash.yaml clash.object.yaml "${small[@]}" -q --aov depth; is_png clash.object.png
+exits 2 render clash.yaml --aov object --stats clash.object.png; err_has 'would both write'
+cp one.yaml clash.depth.pfm
+exits 2 render clash.depth.pfm --aov depth -o clash.png; err_has 'clash.depth.pfm would be written over'
+mkdir clash.normal.png
+exits 2 render clash.yaml "${small[@]}" --aov normal,depth; err_has 'cannot write clash.normal.png'; no_temporaries
+rmdir clash.normal.png
+signalled INT 0.3 render one.yaml "${long[@]}" --aov object -q -o passes/never.png
+ok "an interrupted picture has no passes" [ "$status" -eq 2 -a ! -e passes/never.png -a ! -e passes/never.object.png ]
+no_temporaries
+
 # ---- Parameters and sweeps ----
 
 cat >params.yaml <<'YAML'
@@ -393,7 +445,7 @@ ok "standard input with a sweep" [ $status -eq 0 ]; ok "its first" cmp s1.png p/
 exits 0 render "${small[@]}" -q params.yaml -D a=1,2 -D b=1 --stats s.json
 ok "the statistics have the parameters" grep -qF '"params": {"a": "2", "b": "1"}' s.json
 exits 0 render --size 640x480 --samples 16 --threads 1 params.yaml -D a=1,2 --progress always -o 'p{a}.png'
-err_has 'params  picture 2 of 2  ['
+err_has ' of 2 pictures  ['
 exits 1 render "${small[@]}" params.yaml -D a=1,-1,2; err_has '2 rendered, 1 failed'
 cd ..
 
@@ -683,7 +735,7 @@ assert rays["camera"] == 16 * 12 * good["samples"]
 assert rays["total"] == sum(rays[k] for k in ("camera", "shadow", "reflection", "refraction"))
 built = json.load(open("many.json"))["pictures"][0]
 assert built["primitives"] == 300 and built["seconds"]["build"] > 0
-assert bad == {"scene": "wrong.yaml", "output": "deep/wrong.png", "error": True}
+assert bad == {"scene": "wrong.yaml", "output": "deep/wrong.png", "status": "failed", "error": True}
 assert json.load(open("odd.json"))["pictures"][0]["scene"] == 'od"d\\\ufffd\n.yaml'
 PYTHON
 fi

@@ -13,6 +13,7 @@ pending=''
 
 # Not in the expected texts of tests/errors/ and tests/import/: what no scene gives.
 elsewhere='
+bad-picture         no scene: tests/diff.sh
 cannot-read         no scene: tests/formats/expected.json
 cannot-write        no scene: tests/formats.sh
 format-differs      a mistake in Monge, none is known that gives it: tests/unit/test_format.c

@@ -1,16 +1,25 @@
 #!/bin/sh
-# Renders every scene of scenes/report/ and scenes/gallery/ and compares its pixels with tests/golden/NAME.png: they must be
-# equal. Then renders each small with 1, 2 and 5 threads, and in four regions: again the same pixels.
+# The scenes of scenes/ against their goldens, which are hashes in tests/golden/golden.lock, by `monge test`. Then each that
+# has a picture in tests/golden/ small with 1, 2 and 5 threads, and in four regions: the same pixels.
 #   tests/goldens.sh [PROGRAM] [--update]
-# The new pictures stay in goldens/ beside the program; --update makes them the goldens. The golden of
-# chess.yaml is the README's picture too: of the scene's own size.
+#   tests/goldens.sh --list     only says what there is: NAME SCENE OPTIONS, a line each
+# The run, with a report, stays in goldens/ beside the program; --update makes its new pictures the goldens, in the lock and
+# in tests/golden/*.png, which are to be looked at: tests/unit/test_shown.c sees to it that they are those of the lock.
 set -u
 cd "$(dirname "$0")/.." || exit 2
 program=build/monge update=''
+list() {
+    awk '/^#/ || !NF { next } { path = $1; options = ""; if (match($0, / options=/)) options = substr($0, RSTART + 9); print path, options }' \
+        tests/golden/golden.lock |
+        while read -r path options; do
+            [ ! -f "tests/golden/$(basename "$path").png" ] || echo "$(basename "$path") scenes/$path.yaml${options:+ $options}"
+        done
+}
 for word; do
     case $word in
     --update) update=1 ;;
-    -*) echo "usage: tests/goldens.sh [PROGRAM] [--update]" >&2; exit 2 ;;
+    --list) list; exit 0 ;;
+    -*) echo "usage: tests/goldens.sh [PROGRAM] [--update | --list]" >&2; exit 2 ;;
     *) program=$word ;;
     esac
 done
@@ -39,15 +48,6 @@ check() {
 
 render() { "$program" render --quiet --progress never "$@"; }
 
-# $size is options of render, or empty.
-# shellcheck disable=SC2086
-golden() {
-    render "$scene" -o "$pictures/$name.png" $size || return
-    [ -z "$update" ] || cp "$pictures/$name.png" "tests/golden/$name.png" || return
-    [ -f "tests/golden/$name.png" ] || { echo "no golden tests/golden/$name.png"; return 1; }
-    "$pictures/compare" "tests/golden/$name.png" "$pictures/$name.png"
-}
-
 threads() {
     for count in 1 2 5; do
         render "$scene" -o "$small/$name-$count.png" --size 120x90 --samples 2 --threads $count || return
@@ -64,26 +64,30 @@ regions() {
     done
 }
 
-for file in scenes/report/*.yaml scenes/gallery/*.yaml scenes/presets.yaml; do
-    name=$(basename "$file" .yaml)
-    # The repository should not swell: most goldens are half the size of their scene.
-    case $name in
-    view1 | view2 | chess) size='' ;;
-    final) size='--samples 16' ;;
-    figure1) size='--size 320x240' ;;
-    king) size='--size 270x360' ;;
-    *) case $file in scenes/report/*) size='--size 360x240' ;; *) size='--size 192x128 --samples 1' ;; esac ;;
-    esac
-    scene=$file
-    check "$file" 'the golden picture' golden
-    check "$file" '1, 2 and 5 threads' threads
-    check "$file" 'four regions' regions
-done
+"$program" test --golden tests/golden --output "$pictures/run" --report "$pictures/report" --tap \
+    ${update:+--update-only-failed} >"$pictures/tap"
+status=$?
+passed=$(grep -c '^ok ' "$pictures/tap") failed=$(grep -c '^not ok ' "$pictures/tap")
+if [ $status -ne 0 ] || [ "$failed" -ne 0 ]; then
+    sed -n '/^not ok /,/^  \.\.\./p' "$pictures/tap"
+    echo "The report is $pictures/report/index.html"
+fi
+[ $status -le 1 ] && [ "$passed" -gt 20 ] || failed=$((failed + 1))
+if [ -n "$update" ]; then
+    list | while read -r name path _; do
+        new=$pictures/run/new/${path#scenes/} new=${new%.yaml}.png
+        [ ! -f "$new" ] || cp "$new" "tests/golden/$name.png"
+    done
+fi
+
+list >"$pictures/list"
+while read -r name scene _; do
+    check "$scene" '1, 2 and 5 threads' threads
+    check "$scene" 'four regions' regions
+done <"$pictures/list"
 
 for picture in tests/golden/*.png; do
-    name=$(basename "$picture" .png)
-    [ -n "$(find scenes -name "$name.yaml")" ] || { echo "FAILED $picture has no scene"; failed=$((failed + 1)); }
+    grep -q "^$(basename "$picture" .png) " "$pictures/list" || { echo "FAILED $picture has no scene"; failed=$((failed + 1)); }
 done
-[ "$passed" -gt 0 ] || [ "$failed" -gt 0 ] || { echo "FAILED: no scenes found"; failed=1; }
 echo "goldens: $passed passed, $failed failed"
 [ "$failed" -eq 0 ]

@@ -6,6 +6,42 @@
 static const double degrees_per_radian = 57.29577951308232; /* 180 / pi */
 
 double elementary_pow(double base, double exponent) { return Sleef_cinz_powd1_u10purec(base, exponent); }
+/* Of the deterministic functions those for four or eight numbers give the bits of those for one. */
+static void powers_by_1(size_t count, const float *base, const float *exponent, float *out) {
+    for (size_t i = 0; i < count; i++) out[i] = Sleef_cinz_powf1_u10purec(base[i], exponent[i]);
+}
+
+#ifdef __x86_64__
+/* sleef.h has it only for those who compile for AVX altogether. */
+__attribute__((target("avx"))) __m256 Sleef_cinz_powf8_u10avx(__m256, __m256);
+
+__attribute__((target("avx"))) static size_t powers_by_8(size_t count, const float *base, const float *exponent,
+                                                         float *out) {
+    size_t i = 0;
+    for (; i + 8 <= count; i += 8)
+        _mm256_storeu_ps(out + i,
+                         Sleef_cinz_powf8_u10avx(_mm256_loadu_ps(base + i), _mm256_loadu_ps(exponent + i)));
+    return i;
+}
+
+static size_t powers_by_4(size_t count, const float *base, const float *exponent, float *out) {
+    size_t i = 0;
+    for (; i + 4 <= count; i += 4)
+        _mm_storeu_ps(out + i, Sleef_cinz_powf4_u10sse2(_mm_loadu_ps(base + i), _mm_loadu_ps(exponent + i)));
+    return i;
+}
+
+void elementary_powf(size_t count, const float *base, const float *exponent, float *out) {
+    const size_t done = __builtin_cpu_supports("avx") ? powers_by_8(count, base, exponent, out)
+                                                      : powers_by_4(count, base, exponent, out);
+    powers_by_1(count - done, base + done, exponent + done, out + done);
+}
+#else
+void elementary_powf(size_t count, const float *base, const float *exponent, float *out) {
+    powers_by_1(count, base, exponent, out);
+}
+#endif
+
 double elementary_exp(double x) { return Sleef_cinz_expd1_u10purec(x); }
 double elementary_log(double x) { return Sleef_cinz_logd1_u10purec(x); }
 double elementary_log2(double x) { return Sleef_cinz_log2d1_u10purec(x); }

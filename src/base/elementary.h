@@ -4,7 +4,12 @@
 #ifndef MONGE_BASE_ELEMENTARY_H
 #define MONGE_BASE_ELEMENTARY_H
 
+#include <stddef.h>
+
 double elementary_pow(double base, double exponent);
+/* out[i] = base[i] ^ exponent[i] in single precision, for many at once; base >= 0. out may be either of them. */
+void elementary_powf(size_t count, const float *base, const float *exponent, float *out);
+
 double elementary_exp(double x);
 double elementary_log(double x); /* to base e */
 double elementary_log2(double x);

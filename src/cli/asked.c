@@ -10,6 +10,14 @@ static const enum option_id change_pixels[] = {OPTION_SIZE,    OPTION_SAMPLES, O
                                                OPTION_SHADING, OPTION_SHADOW,  OPTION_NO_SHADOWS,
                                                OPTION_DEPTH,   OPTION_BITS,    OPTION_ENCODING};
 
+enum { CHANGE_PIXELS = sizeof change_pixels / sizeof *change_pixels };
+
+bool asked_changes_pixels(enum option_id option) {
+    for (size_t i = 0; i < CHANGE_PIXELS; i++)
+        if (change_pixels[i] == option) return true;
+    return false;
+}
+
 /* By their names, of which each is there once. */
 static void print_defines(FILE *out, const struct monge_define *defines, size_t count) {
     const struct monge_define *last = NULL;
@@ -34,7 +42,7 @@ char *asked_text(const struct option_value *option, const struct monge_define *d
         say_error("out of memory");
         exit(STATUS_TROUBLE);
     }
-    for (size_t i = 0; i < sizeof change_pixels / sizeof *change_pixels; i++) {
+    for (size_t i = 0; i < CHANGE_PIXELS; i++) {
         const struct option_value *o = &option[change_pixels[i]];
         if (!o->given) continue;
         fprintf(out, " --%s",
@@ -47,4 +55,53 @@ char *asked_text(const struct option_value *option, const struct monge_define *d
     char *asked = say_text("%s", *text ? text + 1 : "");
     free(text);
     return asked;
+}
+
+/* ---- What it means for a scene ---- */
+
+void asked_settings(const struct option_value *option, struct monge_settings *settings) {
+    if (option[OPTION_SIZE].given) {
+        settings->width = option[OPTION_SIZE].number[0];
+        settings->height = option[OPTION_SIZE].number[1];
+    }
+    if (option[OPTION_SAMPLES].given) settings->samples = option[OPTION_SAMPLES].number[0];
+    if (option[OPTION_DEPTH].given) settings->depth = option[OPTION_DEPTH].number[0];
+    if (option[OPTION_BITS].given) settings->bits = option[OPTION_BITS].choice == 0 ? 8 : 16;
+    if (option[OPTION_SHADOW].given) settings->shadow = option[OPTION_SHADOW].fraction;
+    if (option[OPTION_NO_SHADOWS].given) settings->shadow = 1.0;
+    if (option[OPTION_SHADING].given) settings->shading = (enum monge_shading)option[OPTION_SHADING].choice;
+    if (option[OPTION_ENCODING].given)
+        settings->encoding = (enum monge_encoding)option[OPTION_ENCODING].choice;
+}
+
+bool asked_region(const struct option_value *option, const char *scene, const struct monge_settings *settings,
+                  struct monge_region *region) {
+    *region = (struct monge_region){0, 0, settings->width, settings->height};
+    if (!option->given) return true;
+    const uint32_t *n = option->number;
+    *region = (struct monge_region){n[0], n[1], n[2], n[3]};
+    if ((uint64_t)n[0] + n[2] <= settings->width && (uint64_t)n[1] + n[3] <= settings->height) return true;
+    say_error("--region %s does not lie within the picture of %s, which is %ux%u", option->text, scene,
+              settings->width, settings->height);
+    return false;
+}
+
+unsigned *asked_frames(const struct option_value *option, const char *scene, unsigned total, size_t *count) {
+    const unsigned first = option->given ? option->number[0] : 1,
+                   step = option->given ? option->number[2] : 1;
+    const unsigned last = !option->given ? 1 : option->number[1] ? option->number[1] : total;
+    if (option->given && total == 0) {
+        say_error("--frames %s: %s has no animation; `animation: {frames: 48}` makes one", option->text,
+                  scene);
+        return NULL;
+    }
+    if (option->given && (first > total || last > total)) {
+        say_error("--frames %s: %s has %u frame%s", option->text, scene, total, total == 1 ? "" : "s");
+        return NULL;
+    }
+    *count = (last - first) / step + 1;
+    unsigned *frames = calloc(*count, sizeof *frames);
+    for (size_t i = 0; frames && i < *count; i++) frames[i] = first + (unsigned)i * step;
+    if (!frames) say_error("out of memory");
+    return frames;
 }

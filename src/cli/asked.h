@@ -1,4 +1,4 @@
-/* What the command line asks for, where it differs from what a scene says: as a text that is the same for the same. */
+/* What the options of `monge render` ask for, where that differs from what a scene says. */
 #ifndef MONGE_CLI_ASKED_H
 #define MONGE_CLI_ASKED_H
 
@@ -9,5 +9,19 @@
  * parameters by name and the frame, unless it is the first. "" where nothing is asked for. To be freed. */
 char *asked_text(const struct option_value *option, const struct monge_define *defines, size_t define_count,
                  unsigned frame);
+
+/* Whether the option is one of those that change pixels, but for -D and --frames. */
+bool asked_changes_pixels(enum option_id option);
+
+/* The settings as the options have them, where they do. */
+void asked_settings(const struct option_value *option, struct monge_settings *settings);
+
+/* The region that is asked for, or the whole picture. False, with the reason told, when it is not inside. */
+bool asked_region(const struct option_value *option, const char *scene, const struct monge_settings *settings,
+                  struct monge_region *region);
+
+/* The frames that --frames asks for, of an animation of `total`; without it the first alone. NULL, with the reason
+ * told, where they are not there. To be freed. */
+unsigned *asked_frames(const struct option_value *option, const char *scene, unsigned total, size_t *count);
 
 #endif

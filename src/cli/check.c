@@ -45,14 +45,14 @@ static enum status check_scene(struct loader *loader, const char *scene, const s
     return load.status;
 }
 
-static enum status check_scenes(struct loader *loader, const struct arguments *args) {
+static enum status check_scenes(struct loader *loader, bool quiet) {
     struct monge_define *defines = calloc(loader->sweep.count + 1, sizeof *defines);
-    enum status worst = defines ? STATUS_YES : STATUS_TROUBLE;
+    enum status worst = defines ? loader->scenes.status : STATUS_TROUBLE;
     if (!defines) say_error("out of memory");
-    for (size_t i = 0; defines && i < args->count * loader->sweep.total; i++) {
+    for (size_t i = 0; defines && i < loader->scenes.count * loader->sweep.total; i++) {
         sweep_combination(&loader->sweep, i % loader->sweep.total, defines);
-        const enum status status = check_scene(loader, args->operands[i / loader->sweep.total], defines,
-                                               args->option[OPTION_QUIET].given);
+        const enum status status =
+            check_scene(loader, loader->scenes.all[i / loader->sweep.total].path, defines, quiet);
         if (status > worst) worst = status;
     }
     free(defines);
@@ -62,7 +62,8 @@ static enum status check_scenes(struct loader *loader, const struct arguments *a
 enum status check_command(const struct arguments *args) {
     struct loader loader;
     const bool good = loader_begin(&loader, args);
-    const enum status status = good ? check_scenes(&loader, args) : STATUS_TROUBLE;
+    const enum status status =
+        good ? check_scenes(&loader, args->option[OPTION_QUIET].given) : STATUS_TROUBLE;
     loader_end(&loader, good ? stdout : NULL);
     return status;
 }

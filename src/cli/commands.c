@@ -3,7 +3,9 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "cli/accept.h"
 #include "cli/check.h"
+#include "cli/diff.h"
 #include "cli/explain.h"
 #include "cli/fmt.h"
 #include "cli/help.h"
@@ -14,13 +16,17 @@
 #include "cli/say.h"
 #include "cli/schema.h"
 #include "cli/suggest.h"
+#include "cli/test.h"
 #include "monge.h"
 
 #define IN_NONE    (1u << COMMAND_NONE)
 #define IN_RENDER  (1u << COMMAND_RENDER)
 #define IN_CHECK   (1u << COMMAND_CHECK)
 #define IN_INFO    (1u << COMMAND_INFO)
+#define IN_TEST    (1u << COMMAND_TEST)
+#define IN_ACCEPT  (1u << COMMAND_ACCEPT)
 #define IN_FMT     (1u << COMMAND_FMT)
+#define IN_DIFF    (1u << COMMAND_DIFF)
 #define IN_EXPLAIN (1u << COMMAND_EXPLAIN)
 #define IN_IMPORT  (1u << COMMAND_IMPORT)
 #define IN_SCHEMA  (1u << COMMAND_SCHEMA)
@@ -32,6 +38,15 @@
     "memory_bytes (of a load: 8G), values (of one file: 100M), nesting (of lists and mappings: 100), "       \
     "recursion (of templates: 100), steps (objects and turns of loops: 10M), objects (shapes: 20M), "        \
     "pixels (of the picture: 268435456). k, M and G are powers of 1000, of bytes powers of 1024."
+
+#define SCENES_TEXT                                                                                          \
+    "A SCENE is a file; a folder, which stands for all *.yaml and *.yml below it that have a `scene`, by "   \
+    "name "                                                                                                  \
+    "(what is hidden and links to folders are passed by); a pattern in quotes, as 'scenes/**/k*.yaml', in "  \
+    "which "                                                                                                 \
+    "** stands for any folders; or @FILE, a list with one of these a line, where # begins a comment and "    \
+    "paths "                                                                                                 \
+    "are from the current folder. "
 
 /* The words of a choice stand in the order of the enum that they become. */
 const struct option_row OPTION_TABLE[OPTIONS] = {
@@ -59,23 +74,73 @@ const struct option_row OPTION_TABLE[OPTIONS] = {
     [OPTION_BITS] = {"bits", 0, VALUE_CHOICE, IN_RENDER, "8|16", 0, 0, "bits a channel in the file"},
     [OPTION_ENCODING] = {"encoding", 0, VALUE_CHOICE, IN_RENDER, "srgb|linear", 0, 0,
                          "how colours are encoded in the file"},
-    [OPTION_THREADS] = {"threads", 0, VALUE_WHOLE, IN_RENDER, "N", 1, 1024,
-                        "threads to render with; all processors by default"},
+    [OPTION_AOV] = {"aov", 0, VALUE_SET, IN_RENDER, "object|material|depth|normal|shadow", 0, 0,
+                    "write auxiliary passes beside the picture; several with commas between"},
+    [OPTION_THREADS] = {"threads", 0, VALUE_WHOLE, IN_RENDER | IN_DIFF | IN_TEST, "N", 1, 1024,
+                        "threads for each picture; all processors by default"},
+    [OPTION_JOBS] = {"jobs", 'j', VALUE_WHOLE, IN_RENDER | IN_TEST, "N", 1, 256,
+                     "scenes to render at once; as many as processors by default"},
+    [OPTION_SKIP_UNCHANGED] = {"skip-unchanged", 0, VALUE_NONE, IN_RENDER, NULL, 0, 0,
+                               "leave pictures alone that program, options and files would make again"},
+    [OPTION_RESUME] = {"resume", 0, VALUE_NONE, IN_RENDER, NULL, 0, 0,
+                       "go on where a run with --resume was stopped; implies --skip-unchanged"},
+    [OPTION_KEEP_GOING] = {"keep-going", 'k', VALUE_NONE, IN_RENDER, NULL, 0, 0,
+                           "after a failure render the others all the same; this is the default"},
+    [OPTION_FAIL_FAST] = {"fail-fast", 0, VALUE_NONE, IN_RENDER, NULL, 0, 0,
+                          "begin no further scene after a failure"},
     [OPTION_STATS] = {"stats", 0, VALUE_FILE, IN_RENDER, "FILE|-", 0, 0,
                       "write times, rays and memory as JSON"},
-    [OPTION_PROGRESS] = {"progress", 0, VALUE_CHOICE, IN_RENDER, "auto|always|never", 0, 0,
-                         "show a progress bar; auto: where standard error is a terminal"},
+    [OPTION_LOG] = {"log", 0, VALUE_FILE, IN_RENDER, "FILE|-", 0, 0,
+                    "add a line of JSON to the file for each picture"},
+    [OPTION_PROGRESS] = {"progress", 0, VALUE_CHOICE, IN_RENDER, "auto|always|never|json", 0, 0,
+                         "show a progress bar; auto: where standard error is a terminal; json: for programs"},
     [OPTION_FORMAT] = {"format", 0, VALUE_CHOICE, IN_RENDER | IN_CHECK, "text|json|sarif", 0, 0,
                        "how to report what is wrong: for people, or as one document for programs"},
-    [OPTION_LIMIT] = {"limit", 0, VALUE_PAIR, IN_RENDER | IN_CHECK | IN_INFO, "NAME=VALUE", 0, 0,
-                      "what a scene may take, see above; with k, M or G; repeatable"},
-    [OPTION_UNTRUSTED] = {"untrusted", 0, VALUE_NONE, IN_RENDER | IN_CHECK | IN_INFO, NULL, 0, 0,
+    [OPTION_METRIC] = {"metric", 0, VALUE_CHOICES, IN_DIFF, "exact|max|mae|rmse|psnr|ssim|flip", 0, 0,
+                       "what to measure; several with commas between; repeatable"},
+    [OPTION_MAX_DELTA] = {"max-delta", 0, VALUE_FRACTION, IN_DIFF, "F", 0, 1,
+                          "by how much channels may differ, or what is measured may be"},
+    [OPTION_MAX_PIXELS] = {"max-pixels", 0, VALUE_AMOUNT, IN_DIFF, "N|P%", 0, 0,
+                           "how many pixels may differ, by more than --max-delta where it is given"},
+    [OPTION_IGNORE] = {"ignore", 0, VALUE_AREA, IN_DIFF, "X,Y,W,H|MASK", 1, INT32_MAX,
+                       "leave out these pixels, or those that a PNG is not black in; repeatable"},
+    [OPTION_MASK] = {"mask", 0, VALUE_FILE, IN_DIFF, "MASK", 0, 0, "the same as --ignore MASK"},
+    [OPTION_PPD] = {"ppd", 0, VALUE_FRACTION, IN_DIFF, "F", 1, 1000,
+                    "pixels per degree of sight, for flip; 67 by default"},
+    [OPTION_HEAT_MAP] = {"out", 'o', VALUE_FILE, IN_DIFF, "FILE", 0, 0,
+                         "write a picture of where they differ; - is standard output"},
+    [OPTION_DIFF_JSON] = {"json", 0, VALUE_NONE, IN_DIFF, NULL, 0, 0, "as one JSON object"},
+    [OPTION_LIMIT] = {"limit", 0, VALUE_PAIR, IN_RENDER | IN_CHECK | IN_INFO | IN_TEST | IN_ACCEPT,
+                      "NAME=VALUE", 0, 0, "what a scene may take, see above; with k, M or G; repeatable"},
+    [OPTION_UNTRUSTED] = {"untrusted", 0, VALUE_NONE, IN_RENDER | IN_CHECK | IN_INFO | IN_TEST, NULL, 0, 0,
                           "the scene may include files of its own folder alone"},
     [OPTION_JSON] = {"json", 0, VALUE_NONE, IN_INFO, NULL, 0, 0, "as JSON, one object a scene"},
+    [OPTION_GOLDEN] = {"golden", 0, VALUE_FILE, IN_TEST | IN_ACCEPT, "DIR", 0, 0,
+                       "the folder of the goldens, with their golden.yaml and golden.lock; must be given"},
+    [OPTION_TEST_OUTPUT] = {"output", 'o', VALUE_FILE, IN_TEST | IN_ACCEPT, "DIR", 0, 0,
+                            "the folder of the last run; monge-test by default"},
+    [OPTION_GOLDEN_KIND] =
+        {"golden-kind", 0, VALUE_CHOICE, IN_TEST, "png|hash|both", 0, 0,
+         "how goldens are kept, whatever golden.yaml says: pictures, lines of golden.lock, or both"},
+    [OPTION_CHANGED] =
+        {"changed", 0, VALUE_NONE, IN_TEST, NULL, 0, 0,
+         "render only scenes whose text, options or program are not those of the golden, or of a run in "
+         "which they were the same"},
+    [OPTION_UPDATE_ONLY_FAILED] =
+        {"update-only-failed", 0, VALUE_NONE, IN_TEST, NULL, 0, 0,
+         "make the new pictures of what has failed the goldens, and touch no other golden"},
+    [OPTION_OLD] = {"old", 0, VALUE_FILE, IN_TEST, "PROGRAM", 0, 0,
+                    "the monge that made the goldens, to have a picture of those that are hashes"},
+    [OPTION_TEST_JSON] = {"json", 0, VALUE_FILE, IN_TEST, "FILE|-", 0, 0, "write the results as JSON"},
+    [OPTION_JUNIT] = {"junit", 0, VALUE_FILE, IN_TEST, "FILE|-", 0, 0, "write the results as JUnit's XML"},
+    [OPTION_TAP] = {"tap", 0, VALUE_NONE, IN_TEST, NULL, 0, 0, "tell the results as TAP, version 13"},
+    [OPTION_REPORT] = {"report", 0, VALUE_FILE, IN_TEST, "DIR", 0, 0,
+                       "write the results with their pictures as one page, DIR/index.html"},
+    [OPTION_PRUNE] = {"prune", 0, VALUE_NONE, IN_ACCEPT, NULL, 0, 0, "remove goldens whose scenes are gone"},
     [OPTION_CHECK_ONLY] = {"check", 0, VALUE_NONE, IN_FMT, NULL, 0, 0,
                            "write nothing; list what is not formatted, exit status 1 if any"},
-    [OPTION_QUIET] = {"quiet", 'q', VALUE_NONE, IN_RENDER | IN_CHECK | IN_FMT, NULL, 0, 0,
-                      "report nothing but what is wrong"},
+    [OPTION_QUIET] = {"quiet", 'q', VALUE_NONE, IN_RENDER | IN_CHECK | IN_FMT | IN_DIFF | IN_TEST | IN_ACCEPT,
+                      NULL, 0, 0, "report nothing but what is wrong"},
     [OPTION_MAN] = {"man", 0, VALUE_NONE, IN_HELP, NULL, 0, 0, "print the manual page, as roff"},
     [OPTION_COMPLETION] = {"completion", 0, VALUE_CHOICE, IN_HELP, "bash|zsh|fish", 0, 0,
                            "print the completion script of a shell"},
@@ -94,7 +159,9 @@ static enum status version_command(const struct arguments *args) {
 
 const char *const STATUS_DOC[] = {
     [STATUS_YES] = "all is well",
-    [STATUS_NO] = "a scene is wrong, or not formatted (fmt --check); the others have still been dealt with",
+    [STATUS_NO] = ("a scene is wrong, not formatted (fmt --check) or not the same as its golden (test), the "
+                   "others having "
+                   "been dealt with; or pictures differ (diff)"),
     [STATUS_TROUBLE] = "trouble: wrong usage, a file that cannot be read or written, no memory",
 };
 
@@ -112,35 +179,63 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
             .name = "render",
             .operands = "SCENE...",
             .doc = "render scenes to PNG pictures",
-            .text = {"Renders each scene, one after another, to NAME.png in the current folder; NAME "
-                     "is the scene's file name without .yaml or .yml. The options override what the "
-                     "scene says.",
-                     "-o FILE names the picture of a single scene. For several, -o DIR/ puts the "
-                     "pictures into a folder, which is made where it is missing, and in a pattern "
-                     "{name} stands for NAME; folders of a pattern are made too. A picture is complete "
-                     "or absent: it is written under a temporary name and then renamed.",
-                     "-D sets parameters of the scene. Lists make a sweep: -D a=1,2 -D b=x,y renders "
-                     "each a with each b, b first. Commas within brackets or quotes do not split. In a "
-                     "pattern {a} stands for the value of a; without -o pictures are called "
-                     "NAME-a=1-b=x.png.",
-                     "--frames renders frames of a scene with an `animation`; without it, the first. In "
-                     "a pattern {frame} is the number, with leading zeros; so is one %d or %04d, and %% "
-                     "is a %. Without -o, and in a folder, pictures are called NAME-0001.png.",
-                     "The scene - is standard input; its picture goes to standard output unless -o "
-                     "says otherwise. -o - is standard output.",
-                     "With --format json or sarif everything that is wrong comes as one document on "
-                     "standard error at the end, with --quiet implied; wrong usage is still told as "
-                     "text. `monge help check` tells what is in it.",
-                     LIMITS_TEXT},
+            .text =
+                {"Renders each scene to NAME.png in the current folder; NAME is the scene's file name "
+                 "without .yaml or .yml, and of a scene below a folder that is given, the path from "
+                 "there. The options override what the scene says.",
+                 SCENES_TEXT "- is standard input: a list, if each of its lines names something that is "
+                             "there or ends in .yaml or .yml, and else a scene; @- is always a list. The "
+                             "picture of a scene on standard input goes to standard output unless -o says "
+                             "otherwise.",
+                 "-o FILE names the picture of a single scene. For several, -o DIR/ puts the "
+                 "pictures into a folder, which is made where it is missing, and in a pattern "
+                 "{name} stands for NAME; folders of a pattern are made too. A picture is complete "
+                 "under its name, or what was there before stays.",
+                 "-D sets parameters of the scene. Lists make a sweep: -D a=1,2 -D b=x,y renders "
+                 "each a with each b, b first. Commas within brackets or quotes do not split. In a "
+                 "pattern {a} stands for the value of a; without -o pictures are called "
+                 "NAME-a=1-b=x.png.",
+                 "--frames renders frames of a scene with an `animation`; without it, the first. In "
+                 "a pattern {frame} is the number, with leading zeros; so is one %d or %04d, and %% "
+                 "is a %. Without -o, and in a folder, pictures are called NAME-0001.png.",
+                 "--aov writes auxiliary passes beside the picture: NAME.object.png and so on, and "
+                 "NAME.depth.pfm. They tell of each pixel which object and which material the ray "
+                 "through its centre meets first, how far in front of the eye, with which normal, and "
+                 "which point lights reach it there. The manual has what is in the files.",
+                 "-o - is standard output.",
+                 "--jobs scenes are rendered at once, each on --threads threads; messages, --log and "
+                 "--stats keep the order of the batch, and a line at the end counts what has become of "
+                 "it. What fails does not keep the others from being rendered, unless --fail-fast is "
+                 "given.",
+                 "--skip-unchanged leaves a picture alone that is whole and says, in its text chunks, that "
+                 "this program made it of these files with these options. --resume does so too, and for a "
+                 "picture that takes longer than a second keeps the tiles that are done in .NAME.png.partial "
+                 "beside it: the same command, given again after the first run was stopped in whatever way, "
+                 "goes on from there, to the same bytes. The file goes when the picture is complete; it "
+                 "counts for nothing where the scene, the settings or the program are no longer the same. "
+                 "Of two runs for the same picture one keeps the tiles, and both make the picture.",
+                 "--progress json writes a line for each picture that is done and ten a second while one is "
+                 "rendered: an object with done, total, rendered, unchanged, failed (pictures), part (0 to "
+                 "1), "
+                 "seconds, seconds_left (null: unknown), picture, pixels, of_pixels; --quiet is implied. "
+                 "--log "
+                 "adds a line for each picture to a file: scene, output, frame, params, status (rendered, "
+                 "unchanged, failed), and what --stats has, with hashes.",
+                 "With --format json or sarif everything that is wrong comes as one document on "
+                 "standard error at the end, with --quiet implied; wrong usage is still told as "
+                 "text. `monge help check` tells what is in it.",
+                 LIMITS_TEXT},
             .examples = {{"monge render king.yaml", "writes king.png"},
-                         {"monge render scenes/*.yaml -o pictures/ --size 320x240", "small pictures of many"},
+                         {"monge render scenes/ -o pictures/ --size 320x240", "small pictures of many"},
+                         {"monge render scenes/ -o pictures/ --resume --log pictures.log",
+                          "a long batch: to be given again if it is stopped"},
                          {"monge render king.yaml -o 'draft-{name}.png' --shading diffuse --no-shadows",
                           "a quick look, in draft-king.png"},
                          {"monge render king.yaml -D roughness=0.1,0.2,0.4 -o 'king-{roughness}.png'",
                           "three pictures"},
                          {"monge render orbit.yaml --frames all -o orbit/", "orbit/orbit-0001.png and so on"},
                          {"generate | monge render - | display", "from a program to a program"}},
-            .needs_operand = true,
+            .operand = "scene",
             .run = render_command,
         },
     [COMMAND_CHECK] =
@@ -159,11 +254,11 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                      "notifications of the tool. Lines and columns count from 1, columns in characters, "
                      "an end is the first column behind.",
                      "With lists of values, as in -D a=1,2, each combination is checked.", LIMITS_TEXT,
-                     "The scene - is standard input."},
-            .examples = {{"monge check --quiet scenes/*.yaml", "a step of a build: silent where all is well"},
+                     SCENES_TEXT "The scene - is standard input."},
+            .examples = {{"monge check --quiet scenes/", "a step of a build: silent where all is well"},
                          {"monge check --format sarif scenes/*.yaml > monge.sarif",
                           "for what shows SARIF beside the code"}},
-            .needs_operand = true,
+            .operand = "scene",
             .run = check_command,
         },
     [COMMAND_INFO] =
@@ -180,11 +275,64 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                  "Primitives are counted as they are kept, those of a template that is placed as a whole "
                  "once; "
                  "`placed` is their number with all of that carried out.",
-                 "With --json: one object for each scene, with the same. The scene - is standard input."},
+                 "With --json: one object for each scene, with the same.",
+                 SCENES_TEXT "The scene - is standard input."},
             .examples = {{"monge info king.yaml", "what king.yaml consists of"},
                          {"monge info --json king.yaml | jq .camera", "the camera that it is framed by"}},
-            .needs_operand = true,
+            .operand = "scene",
             .run = info_command,
+        },
+    [COMMAND_TEST] =
+        {
+            .name = "test",
+            .operands = "[SCENE...]",
+            .doc = "compare scenes with golden pictures",
+            .text =
+                {"Renders each scene and compares its picture with the golden of its name in the folder of "
+                 "--golden: exactly, "
+                 "unless the scene or DIR/golden.yaml states a tolerance with its reason. Tells what has "
+                 "become of each: "
+                 "same; changed; new, without a golden yet; missing, a golden that ought to be there; "
+                 "orphan, a golden "
+                 "whose scene is gone; broken, a scene that gives no picture.",
+                 "A golden is a picture, DIR/NAME.png, or a line with its hash in DIR/golden.lock, or both. "
+                 "DIR/golden.yaml may have rules: options of render for some scenes, tolerances, kinds of "
+                 "goldens; and "
+                 "`root`, the folder of the scenes, which names count from. With it scenes need not be "
+                 "given.",
+                 "The new pictures of what has failed, and results.json, are in the folder of the run, for "
+                 "`monge accept` "
+                 "to take. Orphans are looked for where there is a root, or where all operands are folders, "
+                 "patterns or "
+                 "lists.",
+                 "Exit status 1 where anything is not the same. grammar/testing.md is the page about it.",
+                 LIMITS_TEXT},
+            .examples = {{"monge test scenes/ --golden goldens/", "all scenes of a folder"},
+                         {"monge test scenes/ --golden goldens/ --update-only-failed",
+                          "for the first goldens, or new ones"},
+                         {"monge test --golden goldens/ --changed -q",
+                          "before a commit, with `root` in golden.yaml"},
+                         {"monge test --golden goldens/ --junit junit.xml --json -",
+                          "for servers and programs"}},
+            .run = test_command,
+        },
+    [COMMAND_ACCEPT] =
+        {
+            .name = "accept",
+            .operands = "[GLOB...]",
+            .doc = "make new pictures of the last test the goldens",
+            .text = {"Takes the new pictures of the last `monge test` with this folder of goldens, all or "
+                     "those whose names "
+                     "match a GLOB. One is left as it is where its scene, what that includes, its options or "
+                     "the program "
+                     "have changed since the run; a golden that did not fail is never touched.",
+                     "With --prune, goldens whose scenes were gone in that run are removed. Exit status 1 "
+                     "where something "
+                     "that was asked for is left as it is."},
+            .examples = {{"monge accept --golden goldens/", "all of them"},
+                         {"monge accept 'gallery/*' --golden goldens/ --prune",
+                          "some, and away with orphans"}},
+            .run = accept_command,
         },
     [COMMAND_EXPLAIN] =
         {
@@ -212,7 +360,7 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                      "- is standard input."},
             .examples = {{"monge import cover.yml -o cover.yaml", "writes cover.yaml"},
                          {"monge import cover.yml | monge render - -o cover.png", "straight to a picture"}},
-            .needs_operand = true,
+            .operand = "scene",
             .run = import_command,
         },
     [COMMAND_FMT] =
@@ -226,13 +374,71 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                      "numbers are kept as written. A scene need not be right, but must be YAML.",
                      "A file that is formatted is not touched; another one is replaced as a whole. With "
                      "--check nothing is written, and the files that are not formatted are listed on "
-                     "standard output. The scene - is standard input, and goes to standard output."},
-            .examples = {{"monge fmt scenes/*.yaml", "in place"},
-                         {"monge fmt --check scenes/*.yaml",
+                     "standard output.",
+                     SCENES_TEXT
+                     "Of a folder, files with definitions alone are formatted too. The scene - is "
+                     "standard input, and goes to standard output."},
+            .examples = {{"monge fmt scenes/", "in place"},
+                         {"monge fmt --check scenes/",
                           "a step of a build: 1 where something is not formatted"},
                          {"monge fmt - < king.yaml | diff king.yaml -", "what it would change"}},
-            .needs_operand = true,
+            .operand = "scene",
             .run = fmt_command,
+        },
+    [COMMAND_DIFF] =
+        {
+            .name = "diff",
+            .operands = "A.png B.png",
+            .doc = "tell whether two pictures are the same, and how they differ",
+            .text =
+                {"Two pictures are the same when they have the same size, bits a channel, colour space and "
+                 "pixels. Text, compression, and whether there is a palette do not count; grey is equal red, "
+                 "green and blue, a picture without alpha is opaque, and one that names no colour space is "
+                 "sRGB. Any PNG will do. Prints a line about what differs; exit status 0 where they are the "
+                 "same, 1 where they are not, 2 where one cannot be read.",
+                 "With --max-delta pixels differ where a channel does by more than that, on a scale from 0 "
+                 "to 1; "
+                 "with --max-pixels that many, or that part, may; with both, that many by more than that. "
+                 "Bits a "
+                 "channel may then differ.",
+                 "--metric measures: exact (the part of the pixels that differ), max (the largest difference "
+                 "of a "
+                 "channel), mae and rmse (the mean of the differences, the root of the mean of their "
+                 "squares), "
+                 "psnr (in decibels), ssim (structural similarity of luma, 1 for equal ones; Wang et al. "
+                 "2004) "
+                 "and flip (what is seen when they alternate, from 0 to 1; Andersson et al. 2020, --ppd "
+                 "pixels "
+                 "per degree; their order matters little). Where it names none of exact and max, "
+                 "--max-delta is a limit for what it names instead: mae, rmse, flip, 1 - ssim, the rmse of "
+                 "psnr.",
+                 "--ignore leaves out a rectangle, or what is neither black nor transparent in a PNG of the "
+                 "same "
+                 "size.",
+                 "--out writes a heat map: the first picture in dim grey, and what differs in colours from "
+                 "violet "
+                 "by orange to pale yellow, the root of the largest difference of a channel, or of FLIP's "
+                 "error with "
+                 "--metric flip.",
+                 "--json prints an object: same (as the exit status has it), why (size, color space, bits, "
+                 "pixels "
+                 "or null), a and b (file, width, height, bits, channels, colorSpace), pixels (compared), "
+                 "different, "
+                 "beyond (by more than --max-delta), bounds and largest (where; null where nothing differs), "
+                 "and each "
+                 "metric by its name. Without --metric these are exact and max. A metric is null where the "
+                 "pixels "
+                 "cannot be compared; psnr, which is then infinite, also where all are the same."},
+            .examples = {{"monge diff golden.png new.png", "exit status 0 where they are the same"},
+                         {"monge diff a.png b.png --max-delta 0.01 --max-pixels 0.1%",
+                          "one pixel in a thousand may differ by more than 0.01"},
+                         {"monge diff a.png b.png --metric flip --max-delta 0.02 --out heat.png",
+                          "whether a viewer could tell, and where"},
+                         {"monge diff a.png b.png --metric ssim,psnr --json | jq .ssim", "for programs"},
+                         {"monge diff a.png b.png --ignore 0,0,120,20 --ignore mask.png",
+                          "but for these pixels"}},
+            .operand = "picture",
+            .run = diff_command,
         },
     [COMMAND_SCHEMA] =
         {
@@ -318,8 +524,8 @@ static enum status run(const struct arguments *args) {
         help_print(stdout, args->command);
         return STATUS_YES;
     }
-    if (args->count == 0 && row->needs_operand) {
-        say_usage(args->command, "%s: no scene given", row->name);
+    if (args->count == 0 && row->operand) {
+        say_usage(args->command, "%s: no %s given", row->name, row->operand);
         return STATUS_TROUBLE;
     }
     return row->run(args);

@@ -8,14 +8,21 @@
 #include <stdint.h>
 
 /* As diff(1) has them; of several, the highest counts. */
-enum status { STATUS_YES, STATUS_NO /* a scene is wrong */, STATUS_TROUBLE /* usage, files, system */ };
+enum status {
+    STATUS_YES,
+    STATUS_NO /* a scene is wrong, pictures differ */,
+    STATUS_TROUBLE /* usage, files, system */
+};
 
 enum command_id {
     COMMAND_NONE, /* monge itself */
     COMMAND_RENDER,
     COMMAND_CHECK,
     COMMAND_INFO,
+    COMMAND_TEST,
+    COMMAND_ACCEPT,
     COMMAND_FMT,
+    COMMAND_DIFF,
     COMMAND_EXPLAIN,
     COMMAND_IMPORT,
     COMMAND_SCHEMA,
@@ -38,13 +45,39 @@ enum option_id {
     OPTION_DEPTH,
     OPTION_BITS,
     OPTION_ENCODING,
+    OPTION_AOV,
     OPTION_THREADS,
+    OPTION_JOBS,
+    OPTION_SKIP_UNCHANGED,
+    OPTION_RESUME,
+    OPTION_KEEP_GOING,
+    OPTION_FAIL_FAST,
     OPTION_STATS,
+    OPTION_LOG,
     OPTION_PROGRESS,
     OPTION_FORMAT,
+    OPTION_METRIC,
+    OPTION_MAX_DELTA,
+    OPTION_MAX_PIXELS,
+    OPTION_IGNORE,
+    OPTION_MASK,
+    OPTION_PPD,
+    OPTION_HEAT_MAP,
+    OPTION_DIFF_JSON, /* the same word, but of one comparison */
     OPTION_LIMIT,
     OPTION_UNTRUSTED,
     OPTION_JSON,
+    OPTION_GOLDEN,
+    OPTION_TEST_OUTPUT, /* the same words as OPTION_OUTPUT, but of a folder */
+    OPTION_GOLDEN_KIND,
+    OPTION_CHANGED,
+    OPTION_UPDATE_ONLY_FAILED,
+    OPTION_OLD,
+    OPTION_TEST_JSON, /* the same word, but with a file */
+    OPTION_JUNIT,
+    OPTION_TAP,
+    OPTION_REPORT,
+    OPTION_PRUNE,
     OPTION_CHECK_ONLY,
     OPTION_QUIET,
     OPTION_MAN,
@@ -62,6 +95,10 @@ enum value_kind {
     VALUE_SIZE,     /* WxH, each low .. high */
     VALUE_REGION,   /* X,Y,W,H: X and Y from 0, W and H low .. high */
     VALUE_CHOICE,   /* one of the words of `value` */
+    VALUE_CHOICES,  /* some of them, with commas between; may be given many times */
+    VALUE_AMOUNT,   /* a whole number, or 0 .. 100 and % */
+    VALUE_AREA,     /* as VALUE_REGION, or a file; may be given many times */
+    VALUE_SET,      /* some of the words of `value`, each once, with commas between */
     VALUE_FRAMES,   /* N, A-B, A- or all, with :STEP behind it; each low .. high */
     VALUE_PAIR,     /* NAME=VALUE; may be given many times */
 };
@@ -87,14 +124,19 @@ struct command_row {
     const char *name;
     const char *operands;       /* "SCENE...", "" */
     const char *doc;            /* no capital, no full stop */
-    const char *text[8];        /* paragraphs, up to a NULL */
+    const char *text[12];       /* paragraphs, up to a NULL */
     struct example examples[8]; /* up to a NULL */
-    bool needs_operand;
+    const char *operand;        /* "scene"; NULL where it needs none */
     enum status (*run)(const struct arguments *args);
 };
 extern const struct command_row COMMAND_TABLE[COMMANDS];
 
 extern const char *const STATUS_DOC[STATUS_TROUBLE + 1];
+
+/* Whether the value is made of words that are known. */
+static inline bool option_has_words(const struct option_row *row) {
+    return row->kind == VALUE_CHOICE || row->kind == VALUE_CHOICES || row->kind == VALUE_SET;
+}
 
 static inline bool command_takes(enum command_id command, enum option_id option) {
     return OPTION_TABLE[option].commands >> command & 1;

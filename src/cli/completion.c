@@ -10,6 +10,10 @@ static void print_choices(FILE *out, const char *choices) {
     for (; *choices; choices++) fputc(*choices == '|' ? ' ' : *choices, out);
 }
 
+static bool is_file(const struct option_row *row) {
+    return row->kind == VALUE_FILE || row->kind == VALUE_AREA;
+}
+
 static void print_commands(FILE *out) {
     for (enum command_id c = COMMAND_NONE + 1; c < COMMANDS; c++)
         fprintf(out, "%s%s", c > 1 ? " " : "", COMMAND_TABLE[c].name);
@@ -46,11 +50,11 @@ static void print_bash_value(FILE *out, enum command_id command, enum option_id 
     fprintf(out, "    %s,--%s", name, row->name);
     if (row->letter) fprintf(out, " | %s,-%c", name, row->letter);
     fputs(") ", out);
-    if (row->kind == VALUE_CHOICE) {
+    if (option_has_words(row)) {
         fputs("mapfile -t COMPREPLY < <(compgen -W '", out);
         print_choices(out, row->value);
         fputs("' -- \"$word\")", out);
-    } else if (row->kind == VALUE_FILE) {
+    } else if (is_file(row)) {
         fputs("mapfile -t COMPREPLY < <(compgen -f -- \"$word\")", out);
     } else {
         fputs(":", out);
@@ -131,10 +135,10 @@ static void print_zsh_option(FILE *out, enum option_id option) {
     fputs("]", out);
     if (row->value) {
         fputs(":", out);
-        print_zsh_text(out, row->kind == VALUE_CHOICE ? row->name : row->value);
+        print_zsh_text(out, option_has_words(row) ? row->name : row->value);
         fputs(":", out);
-        if (row->kind == VALUE_FILE) fputs("_files", out);
-        if (row->kind == VALUE_CHOICE) {
+        if (is_file(row)) fputs("_files", out);
+        if (option_has_words(row)) {
             fputs("(", out);
             print_choices(out, row->value);
             fputs(")", out);
@@ -170,8 +174,9 @@ static void print_zsh(FILE *out) {
         fprintf(out, "    %s)\n        _arguments -s -S \\\n", COMMAND_TABLE[c].name);
         for (enum option_id o = 0; o < OPTIONS; o++)
             if (command_takes(c, o)) print_zsh_option(out, o);
-        if (COMMAND_TABLE[c].needs_operand) {
-            fputs("            '*:scene:_files -g \"*.y(a|)ml\"'\n        ;;\n", out);
+        if (COMMAND_TABLE[c].operand) {
+            fprintf(out, "            '*:%s:_files -g \"%s\"'\n        ;;\n", COMMAND_TABLE[c].operand,
+                    c == COMMAND_DIFF ? "*.png" : "*.y(a|)ml");
             continue;
         }
         if (c == COMMAND_HELP || c == COMMAND_EXPLAIN) {
@@ -198,11 +203,11 @@ static void print_fish_option(FILE *out, enum command_id command, enum option_id
         fprintf(out, "complete -c monge -n '__fish_seen_subcommand_from %s'", COMMAND_TABLE[command].name);
     fprintf(out, " -l %s", row->name);
     if (row->letter) fprintf(out, " -s %c", row->letter);
-    if (row->kind == VALUE_FILE)
+    if (is_file(row))
         fputs(" -r", out);
     else if (row->value)
         fputs(" -x", out);
-    if (row->kind == VALUE_CHOICE) {
+    if (option_has_words(row)) {
         fputs(" -a '", out);
         print_choices(out, row->value);
         fputs("'", out);

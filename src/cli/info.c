@@ -23,16 +23,15 @@ static enum status tell(struct loader *loader, const char *path, const struct mo
     return load.status;
 }
 
-static enum status tell_all(struct loader *loader, const struct arguments *args) {
+static enum status tell_all(struct loader *loader, bool json) {
     struct monge_define *defines = calloc(loader->sweep.count + 1, sizeof *defines);
-    const bool json = args->option[OPTION_JSON].given;
-    const size_t all = args->count * loader->sweep.total;
-    enum status worst = defines ? STATUS_YES : STATUS_TROUBLE;
+    const size_t all = loader->scenes.count * loader->sweep.total;
+    enum status worst = defines ? loader->scenes.status : STATUS_TROUBLE;
     if (!defines) say_error("out of memory");
     for (size_t i = 0; defines && i < all; i++) {
         if (i > 0 && !json) printf("\n");
         sweep_combination(&loader->sweep, i % loader->sweep.total, defines);
-        const enum status status = tell(loader, args->operands[i / loader->sweep.total], defines,
+        const enum status status = tell(loader, loader->scenes.all[i / loader->sweep.total].path, defines,
                                         json ? MONGE_FORMAT_JSON : MONGE_FORMAT_TEXT, all > 1 && !json);
         if (status > worst) worst = status;
     }
@@ -44,7 +43,7 @@ enum status info_command(const struct arguments *args) {
     struct loader loader;
     const bool good = loader_begin(&loader, args);
     loader.outline = true;
-    const enum status status = good ? tell_all(&loader, args) : STATUS_TROUBLE;
+    const enum status status = good ? tell_all(&loader, args->option[OPTION_JSON].given) : STATUS_TROUBLE;
     loader_end(&loader, good ? stdout : NULL);
     return status;
 }

@@ -4,8 +4,8 @@
  *     ...                       render with it as monge_job's cancel; write
  *     interrupt_settle();       dies here of the signal that has come, if one has
  *
- * In between, calls that wait (a write to a full pipe) end with EINTR. A signal that was ignored
- * when the program started, as under nohup, stays so. */
+ * Several threads may be in between at once: the last that settles dies. There, calls that wait (a write to a full
+ * pipe) end with EINTR. A signal that was ignored when the program started, as under nohup, stays so. */
 #ifndef MONGE_CLI_INTERRUPT_H
 #define MONGE_CLI_INTERRUPT_H
 

@@ -6,8 +6,11 @@
 
 bool loader_begin(struct loader *loader, const struct arguments *args) {
     *loader = (struct loader){.untrusted = args->option[OPTION_UNTRUSTED].given};
-    return sweep_read(args, &loader->sweep) && limits_read(args, &loader->limits) &&
-           report_begin(&loader->report, args);
+    if (!sweep_read(args, &loader->sweep) || !limits_read(args, &loader->limits) ||
+        !report_begin(&loader->report, args))
+        return false;
+    scenes_find(&loader->scenes, args, SCENES_ALONE, &loader->limits.load, &loader->report);
+    return true;
 }
 
 void loader_end(struct loader *loader, FILE *out) {
@@ -15,17 +18,16 @@ void loader_end(struct loader *loader, FILE *out) {
         report_end(&loader->report, out);
     else
         monge_diagnostics_free(loader->report.all);
-    monge_text_free(&loader->input);
+    scenes_free(&loader->scenes);
     sweep_free(&loader->sweep);
 }
 
-/* Standard input can be read but once. */
-static struct monge_scene *load_input(struct loader *loader, const struct monge_load_options *options,
-                                      struct monge_diagnostics *diag) {
-    if (!loader->has_input)
-        loader->has_input = monge_text_read("-", &loader->limits.load, &loader->input, diag);
-    if (!loader->has_input) return NULL;
-    return monge_load_memory("<stdin>", loader->input.bytes, loader->input.size, options, diag);
+static struct monge_scene *load_path(const struct loader *loader, const char *path,
+                                     const struct monge_load_options *options,
+                                     struct monge_diagnostics *diag) {
+    const struct monge_text *input = &loader->scenes.input;
+    if (strcmp(path, "-") != 0) return monge_load_file(path, options, diag);
+    return monge_load_memory("<stdin>", input->bytes, input->size, options, diag);
 }
 
 struct load load_scene(struct loader *loader, const char *path, const struct monge_define *defines,
@@ -39,10 +41,9 @@ struct load load_scene(struct loader *loader, const char *path, const struct mon
                                                .frame = frame,
                                                .untrusted = loader->untrusted,
                                                .outline = loader->outline};
-    const bool again = loader->sweep.total > 1 && strcmp(path, "-") == 0;
     const unsigned errors = monge_diagnostics_errors(diag), warnings = monge_diagnostics_warnings(diag);
     const unsigned failures = monge_diagnostics_failures(diag);
-    load.scene = again ? load_input(loader, &options, diag) : monge_load_file(path, &options, diag);
+    load.scene = load_path(loader, path, &options, diag);
     load.errors = monge_diagnostics_errors(diag) - errors;
     load.warnings = monge_diagnostics_warnings(diag) - warnings;
     if (load.scene)

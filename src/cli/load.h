@@ -4,21 +4,22 @@
 
 #include "cli/limits.h"
 #include "cli/report.h"
+#include "cli/scenes.h"
 #include "cli/sweep.h"
 
-/* How the command line wants scenes to be read. */
+/* Which scenes the command line names, and how it wants them to be read. */
 struct loader {
     struct sweep sweep;
     struct limits limits;
     bool untrusted;
     bool outline; /* for monge info */
     struct report report;
-    bool has_input;          /* standard input has been read: */
-    struct monge_text input; /* it is wanted for each combination of the sweep */
+    struct scenes scenes;
 };
 
-/* Reads -D, --limit, --untrusted and --format. False, with the reason on stderr, when one is wrong. Either
- * way to be ended, which writes the document of a --format to `out`; NULL: none. */
+/* Reads -D, --limit, --untrusted and --format, and finds the scenes, of which not all need be there: see
+ * scenes.status. False, with the reason on stderr, when an option is wrong. Either way to be ended, which writes the
+ * document of a --format to `out`; NULL: none. */
 bool loader_begin(struct loader *loader, const struct arguments *args);
 void loader_end(struct loader *loader, FILE *out);
 

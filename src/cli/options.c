@@ -71,14 +71,60 @@ static bool read_frames(const struct option_row *row, const char *text, uint32_t
 /* NAME=VALUE; what they may be is for those to say who use them. */
 static bool read_pair(const char *text) { return *text != '=' && strchr(text, '='); }
 
-static bool read_choice(const char *choices, const char *text, unsigned *choice) {
-    const size_t length = strlen(text);
+/* A text of `length` bytes. */
+static bool read_choice(const char *choices, const char *text, size_t length, unsigned *choice) {
     for (*choice = 0; choices; ++*choice) {
         if (strcspn(choices, "|") == length && strncmp(choices, text, length) == 0) return true;
         choices = strchr(choices, '|');
         if (choices) choices++;
     }
     return false;
+}
+
+/* Words with commas between; their bits are added to *choices. */
+static bool read_choices(const char *choices, const char *text, unsigned *bits) {
+    for (;; text++) {
+        unsigned choice;
+        const size_t length = strcspn(text, ",");
+        if (!read_choice(choices, text, length, &choice)) return false;
+        *bits |= 1u << choice;
+        text += length;
+        if (!*text) return true;
+    }
+}
+
+static bool read_amount(const char *text, struct option_value *value) {
+    char number[32];
+    const size_t length = strlen(text);
+    value->percent = length > 0 && text[length - 1] == '%';
+    if (length >= sizeof number) return false;
+    memcpy(number, text, length + 1);
+    if (!value->percent)
+        return number[strspn(number, "0123456789")] == '\0' &&
+               read_fraction(number, 0, 1e18, &value->fraction);
+    number[length - 1] = '\0';
+    return read_fraction(number, 0, 100, &value->fraction);
+}
+
+bool options_area(const struct option_pair *pair, uint32_t number[4]) {
+    return read_region(&OPTION_TABLE[pair->option], pair->text, number);
+}
+
+/* What is of digits and commas alone is meant to be a rectangle. */
+static bool read_area(const struct option_row *row, const char *text, uint32_t number[4]) {
+    return text[strspn(text, "0123456789,-. ")] ? true : read_region(row, text, number);
+}
+
+/* Words with commas between, each once. */
+static bool read_set(const char *choices, const char *text, unsigned *set) {
+    for (*set = 0;;) {
+        const size_t length = strcspn(text, ",");
+        unsigned choice;
+        if (!read_choice(choices, text, length, &choice) || *set >> choice & 1) return false;
+        *set |= 1u << choice;
+        if (!text[length]) return true;
+        text += length + 1;
+    }
 }
 
 static bool read_value(const struct option_row *row, const char *text, struct option_value *value) {
@@ -93,20 +139,23 @@ static bool read_value(const struct option_row *row, const char *text, struct op
     case VALUE_FRACTION: return read_fraction(text, row->low, row->high, &value->fraction);
     case VALUE_SIZE: return read_size(row, text, value->number);
     case VALUE_REGION: return read_region(row, text, value->number);
-    case VALUE_CHOICE: return read_choice(row->value, text, &value->choice);
+    case VALUE_CHOICE: return read_choice(row->value, text, strlen(text), &value->choice);
+    case VALUE_CHOICES: return read_choices(row->value, text, &value->choices);
+    case VALUE_AMOUNT: return read_amount(text, value);
+    case VALUE_AREA: return read_area(row, text, value->number);
+    case VALUE_SET: return read_set(row->value, text, &value->set);
     case VALUE_FRAMES: return read_frames(row, text, value->number);
     case VALUE_PAIR: return read_pair(text);
     }
     return false;
 }
 
-/* "phong, diffuse or signature" */
-static void describe_choice(const char *choices, char *text, size_t size) {
-    *text = '\0';
+/* Adds "phong, diffuse or signature", with that word before the last one. */
+static void describe_words(const char *choices, const char *last, char *text, size_t size) {
     while (choices) {
         const int length = (int)strcspn(choices, "|");
         const char *next = choices[length] ? choices + length + 1 : NULL;
-        const char *link = !next ? "" : strchr(next, '|') ? ", " : " or ";
+        const char *link = !next ? "" : strchr(next, '|') ? ", " : last;
         const size_t used = strlen(text);
         snprintf(text + used, size - used, "%.*s%s", length, choices, link);
         choices = next;
@@ -121,7 +170,17 @@ static void describe_value(const struct option_row *row, char *text, size_t size
     case VALUE_FRACTION: snprintf(text, size, "a number from %u to %u", row->low, row->high); break;
     case VALUE_SIZE: snprintf(text, size, "WxH like 640x480, each from %u to %u", row->low, row->high); break;
     case VALUE_REGION: snprintf(text, size, "X,Y,W,H like 0,0,320,240, W and H from %u", row->low); break;
-    case VALUE_CHOICE: describe_choice(row->value, text, size); break;
+    case VALUE_CHOICE:
+    case VALUE_CHOICES: *text = '\0', describe_words(row->value, " or ", text, size); break;
+    case VALUE_AMOUNT: snprintf(text, size, "a whole number, or 0 to 100 and %%"); break;
+    case VALUE_AREA:
+        snprintf(text, size, "X,Y,W,H like 0,0,320,240, W and H from %u, or a PNG file", row->low);
+        break;
+    case VALUE_SET:
+        snprintf(text, size, "some of ");
+        describe_words(row->value, " and ", text, size);
+        snprintf(text + strlen(text), size - strlen(text), ", each once and with commas between");
+        break;
     case VALUE_FRAMES:
         snprintf(text, size, "N, A-B, A- or all, perhaps with :STEP, from %u", row->low);
         break;
@@ -134,7 +193,8 @@ static bool set_value(struct arguments *args, enum option_id option, const char 
     const struct option_row *row = &OPTION_TABLE[option];
     char expected[128];
     if (text && read_value(row, text, &args->option[option])) {
-        if (row->kind == VALUE_PAIR) args->pairs[args->pair_count++] = (struct option_pair){option, text};
+        if (row->kind == VALUE_PAIR || row->kind == VALUE_AREA)
+            args->pairs[args->pair_count++] = (struct option_pair){option, text};
         return args->option[option].given = true;
     }
     describe_value(row, expected, sizeof expected);

@@ -9,11 +9,14 @@ struct option_value {
     const char *text; /* as the user wrote it; NULL for a switch */
     uint32_t number
         [4]; /* of a whole number, a size or a region, in the order of writing; of frames: first, last (0: open), step */
-    double fraction;
-    unsigned choice; /* which of the words of the table, from 0 */
+    double fraction;  /* also of an amount */
+    unsigned choice;  /* which of the words of the table, from 0 */
+    unsigned choices; /* a bit for each that was given, in any of them */
+    bool percent;     /* of an amount */
+    unsigned set;     /* which words there are: a bit 1 << choice for each */
 };
 
-/* A VALUE_PAIR as it was given. */
+/* A VALUE_PAIR or VALUE_AREA as it was given. */
 struct option_pair {
     enum option_id option;
     const char *text;
@@ -33,6 +36,10 @@ struct arguments {
  * on stderr, when an option is unknown or its value is not what the table asks for. Either way the arguments
  * are to be freed. */
 bool options_parse(enum command_id command, int argc, char **argv, struct arguments *args);
+
+/* The rectangle of a VALUE_AREA; false where it is a file. */
+bool options_area(const struct option_pair *pair, uint32_t number[4]);
+
 void options_free(struct arguments *args);
 
 #endif

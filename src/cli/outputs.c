@@ -8,6 +8,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "cli/aov.h"
 #include "cli/pattern.h"
 #include "cli/say.h"
 
@@ -32,14 +33,6 @@ static size_t folder_length(const char *path) {
     return slash ? (size_t)(slash - path) + 1 : 0;
 }
 
-static char *scene_name(const char *scene) {
-    if (is_stream(scene)) return say_text("stdin");
-    const char *base = scene + folder_length(scene);
-    const char *dot = strrchr(base, '.');
-    const bool yaml = dot && dot > base && (strcmp(dot, ".yaml") == 0 || strcmp(dot, ".yml") == 0);
-    return say_text("%.*s", (int)(yaml ? (size_t)(dot - base) : strlen(base)), base);
-}
-
 static char *joined(char *text, const char *more) {
     char *longer = say_text("%s%s", text, more);
     free(text);
@@ -48,30 +41,8 @@ static char *joined(char *text, const char *more) {
 
 static bool ends_in_slash(const char *path) { return *path && path[strlen(path) - 1] == '/'; }
 
-static int digits_of(unsigned number) {
-    int digits = 1;
-    while (number /= 10) digits++;
-    return digits;
-}
-
-/* What a picture is called where the user has no name for it: NAME-a=1-0001.png. */
-static char *usual_name(const struct plan *plan, const struct pattern_values *values) {
-    char *text = say_text("%s", values->name);
-    for (size_t i = 0; i < plan->sweep->count; i++) {
-        if (plan->sweep->axes[i].count == 1) continue;
-        char *safe = pattern_safe(values->defines[i].value),
-             *part = say_text("-%s=%s", values->defines[i].name, safe);
-        text = joined(text, part);
-        free(part);
-        free(safe);
-    }
-    if (plan->frames) {
-        char *part = values->frame ? say_text("-%0*u", values->digits < 4 ? 4 : values->digits, values->frame)
-                                   : say_text("-{frame}");
-        text = joined(text, part);
-        free(part);
-    }
-    return joined(text, ".png");
+static char *usual_file(const struct plan *plan, const struct pattern_values *values) {
+    return joined(pattern_usual(plan->sweep, values), ".png");
 }
 
 /* The path of a picture; of `frame` 0, as far as it is known without the frame. */
@@ -82,12 +53,12 @@ static char *picture_path(const struct plan *plan, const struct output *output, 
                                           .define_count = plan->sweep->count,
                                           .frames = plan->frames != NULL,
                                           .frame = frame,
-                                          .digits = digits_of(last)};
-    if (!plan->wanted) return is_stream(output->scene) ? say_text("-") : usual_name(plan, &values);
+                                          .digits = pattern_digits(last)};
+    if (!plan->wanted) return is_stream(output->scene) ? say_text("-") : usual_file(plan, &values);
     char *path = pattern_expand(plan->wanted, &values);
     const bool slash = ends_in_slash(path);
     if (!slash && !is_folder(path)) return path;
-    char *name = usual_name(plan, &values);
+    char *name = usual_file(plan, &values);
     path = joined(joined(path, slash ? "" : "/"), name);
     free(name);
     return path;
@@ -100,7 +71,7 @@ static char *better_pattern(const struct plan *plan) {
     const char *wanted = plan->wanted, *dot = strrchr(wanted, '.');
     const bool extended = dot && dot > wanted + folder_length(wanted);
     char *text = say_text("%.*s", (int)(extended ? (size_t)(dot - wanted) : strlen(wanted)), wanted);
-    if (plan->scene_count > 1 && !pattern_has(wanted, "name")) text = joined(text, "-{name}");
+    if (plan->scenes->count > 1 && !pattern_has(wanted, "name")) text = joined(text, "-{name}");
     for (size_t i = 0; i < plan->sweep->count; i++) {
         const struct axis *axis = &plan->sweep->axes[i];
         char *part = say_text("-{%s}", axis->name);
@@ -205,6 +176,17 @@ static void add_claim(struct plan *plan, const char *path, const char *user, boo
     plan->claims[plan->claim_count++] = (struct claim){resolve(path), user, writes};
 }
 
+/* A picture with the files of its passes. */
+static void add_picture_claims(struct plan *plan, const char *picture, const char *user) {
+    add_claim(plan, picture, user, true);
+    for (enum monge_layer layer = 0; layer < MONGE_LAYERS; layer++) {
+        if (!(plan->passes >> layer & 1)) continue;
+        char *path = aov_path(layer, picture);
+        add_claim(plan, path, user, true);
+        free(path);
+    }
+}
+
 static bool make_room(struct plan *plan, size_t more) {
     struct claim *claims = realloc(plan->claims, (plan->claim_count + more) * sizeof *claims);
     if (claims)
@@ -215,28 +197,34 @@ static bool make_room(struct plan *plan, size_t more) {
 }
 
 static bool check_files(struct plan *plan) {
-    if (!make_room(plan, plan->count * 2 + 1)) return false;
+    if (!make_room(plan, plan->count * (2 + MONGE_LAYERS) + 2)) return false;
     for (size_t i = 0; i < plan->count; i += plan->sweep->total)
         add_claim(plan, plan->outputs[i].scene, plan->outputs[i].scene, false);
     for (size_t i = 0; i < plan->count; i++)
-        add_claim(plan, plan->outputs[i].path, plan->outputs[i].title, true);
+        add_picture_claims(plan, plan->outputs[i].path, plan->outputs[i].title);
     if (plan->stats) add_claim(plan, plan->stats, "--stats", true);
+    if (plan->log) add_claim(plan, plan->log, "--log", true);
     return check_claims(plan);
 }
 
 static bool check_streams(const struct plan *plan) {
-    const char *stats = plan->stats;
-    size_t inputs = 0, pictures = 0;
+    const bool stats = plan->stats && is_stream(plan->stats), log = plan->log && is_stream(plan->log);
+    size_t pictures = 0, devices = 0;
     for (size_t i = 0; i < plan->count; i++) {
-        inputs += i % plan->sweep->total == 0 && is_stream(plan->outputs[i].scene);
         pictures += is_stream(plan->outputs[i].path);
+        devices += is_special(plan->outputs[i].path);
     }
-    if (inputs > 1)
-        say_usage(COMMAND_RENDER, "standard input can be only one scene");
-    else if (pictures > 1 || (pictures && many_frames(plan)))
+    if (pictures > 1 || (pictures && many_frames(plan)))
         say_usage(COMMAND_RENDER, "-o -: standard output can take only one picture");
-    else if (pictures && stats && is_stream(stats))
-        say_usage(COMMAND_RENDER, "--stats -: standard output takes the picture");
+    else if (plan->passes && pictures)
+        say_usage(COMMAND_RENDER, "--aov: passes are files beside the picture; give -o FILE");
+    else if (plan->passes && devices)
+        say_usage(COMMAND_RENDER, "--aov: passes are files beside the picture, which %s is not",
+                  plan->wanted);
+    else if (pictures && (stats || log))
+        say_usage(COMMAND_RENDER, "%s -: standard output takes the picture", stats ? "--stats" : "--log");
+    else if (stats && log)
+        say_usage(COMMAND_RENDER, "--stats - and --log -: standard output can take only one of them");
     else if (pictures && isatty(STDOUT_FILENO))
         say_usage(COMMAND_RENDER,
                   "a picture is not for a terminal: give -o FILE, or redirect standard output");
@@ -272,69 +260,82 @@ static bool check_writable(const char *path) {
     return writable;
 }
 
-/* Whether -o asks for folders: a FILE does not, so that a slip of the pen makes none. */
+/* Whether folders are made: a FILE of -o asks for none, so that a slip of the pen makes none. */
 static bool makes_folders(const struct plan *plan) {
-    return plan->wanted &&
-           (ends_in_slash(plan->wanted) || !pattern_is_plain(plan->wanted, plan->frames != NULL));
+    const char *wanted = plan->wanted;
+    return !wanted || ends_in_slash(wanted) || is_folder(wanted) ||
+           !pattern_is_plain(wanted, plan->frames != NULL);
 }
 
-static bool check_folder(const struct plan *plan, char *path) {
-    return (!makes_folders(plan) || make_folder(path)) && check_writable(path);
+static bool check_passes_writable(const struct plan *plan, const char *picture) {
+    bool writable = true;
+    for (enum monge_layer layer = 0; layer < MONGE_LAYERS && writable; layer++) {
+        char *path = plan->passes >> layer & 1 ? aov_path(layer, picture) : NULL;
+        writable = !path || check_writable(path);
+        free(path);
+    }
+    return writable;
 }
 
-/* Whether the folder is known before the frame is. */
-static bool has_known_folder(const struct output *output) {
-    const char *open = strstr(output->path, "{frame}");
-    return !open || !strchr(open, '/');
+bool plan_reach(const struct plan *plan, const char *path) {
+    char *copy = say_text("%s", path);
+    const bool good = (!makes_folders(plan) || make_folder(copy)) && check_writable(path) &&
+                      check_passes_writable(plan, path);
+    free(copy);
+    return good;
 }
 
-static bool check_folders(const struct plan *plan) {
+bool plan_is_serial(const struct plan *plan) {
     for (size_t i = 0; i < plan->count; i++)
-        if (has_known_folder(&plan->outputs[i]) && !check_folder(plan, plan->outputs[i].path)) return false;
-    return !plan->stats || check_writable(plan->stats);
+        if (is_stream(plan->outputs[i].path) || is_special(plan->outputs[i].path)) return true;
+    return false;
 }
 
 /* ---- The plan ---- */
 
-static bool make_output(struct plan *plan, const char *scene, size_t combination, struct output *output) {
-    *output = (struct output){.scene = scene,
-                              .name = scene_name(scene),
+static bool make_output(struct plan *plan, const struct scene_file *scene, size_t combination,
+                        struct output *output) {
+    *output = (struct output){.scene = scene->path,
+                              .name = scene->name,
                               .defines = calloc(plan->sweep->count + 1, sizeof *output->defines)};
     if (!output->defines) return false;
     sweep_combination(plan->sweep, combination, output->defines);
     char *with = sweep_describe(plan->sweep, output->defines);
-    output->title = say_text("%s%s%s", scene, *with ? " with " : "", with);
+    output->title = say_text("%s%s%s", scene->path, *with ? " with " : "", with);
     free(with);
     output->path = picture_path(plan, output, 0, 0);
     return true;
 }
 
-static bool make_outputs(struct plan *plan, char **scenes) {
-    bool good = (plan->outputs = calloc(plan->count, sizeof *plan->outputs)) != NULL;
+static bool make_outputs(struct plan *plan) {
+    bool good = (plan->outputs = calloc(plan->count + 1, sizeof *plan->outputs)) != NULL;
     for (size_t i = 0; good && i < plan->count; i++)
-        good = make_output(plan, scenes[i / plan->sweep->total], i % plan->sweep->total, &plan->outputs[i]);
+        good = make_output(plan, &plan->scenes->all[i / plan->sweep->total], i % plan->sweep->total,
+                           &plan->outputs[i]);
     if (!good) say_error("out of memory");
     return good;
 }
 
-bool plan_begin(struct plan *plan, const struct arguments *args, const struct sweep *sweep) {
+bool plan_begin(struct plan *plan, const struct arguments *args, const struct scenes *scenes,
+                const struct sweep *sweep) {
     const struct option_value *frames = &args->option[OPTION_FRAMES];
     *plan = (struct plan){
         .wanted = args->option[OPTION_OUTPUT].text,
         .stats = args->option[OPTION_STATS].text,
+        .log = args->option[OPTION_LOG].text,
+        .lock = PTHREAD_MUTEX_INITIALIZER,
         .sweep = sweep,
         .frames = frames->given ? frames : NULL,
-        .scene_count = args->count,
-        .count = args->count * sweep->total,
+        .passes = args->option[OPTION_AOV].set,
+        .scenes = scenes,
+        .count = scenes->count * sweep->total,
     };
-    return check_pattern(plan) && (!plan->wanted || check_extension(plan->wanted)) &&
-           make_outputs(plan, args->operands) && check_streams(plan) && check_files(plan) &&
-           check_folders(plan);
+    return check_pattern(plan) && (!plan->wanted || check_extension(plan->wanted)) && make_outputs(plan) &&
+           check_streams(plan) && check_files(plan) && (!plan->stats || check_writable(plan->stats));
 }
 
 void plan_free(struct plan *plan) {
     for (size_t i = 0; plan->outputs && i < plan->count; i++) {
-        free(plan->outputs[i].name);
         free(plan->outputs[i].defines);
         free(plan->outputs[i].title);
         free(plan->outputs[i].path);
@@ -345,12 +346,12 @@ void plan_free(struct plan *plan) {
 }
 
 static bool check_paths(struct plan *plan, const struct output *output, char **paths, size_t count) {
-    if (!make_room(plan, count)) return false;
-    for (size_t i = 0; i < count; i++) add_claim(plan, paths[i], output->title, true);
-    if (!check_claims(plan)) return false;
-    for (size_t i = 0; i < count; i++)
-        if (!check_folder(plan, paths[i])) return false;
-    return true;
+    pthread_mutex_lock(&plan->lock);
+    const bool room = make_room(plan, count * (1 + MONGE_LAYERS));
+    for (size_t i = 0; room && i < count; i++) add_picture_claims(plan, paths[i], output->title);
+    const bool good = room && check_claims(plan);
+    pthread_mutex_unlock(&plan->lock);
+    return good;
 }
 
 char **plan_frames(struct plan *plan, const struct output *output, const unsigned *frames, size_t count,

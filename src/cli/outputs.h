@@ -2,11 +2,13 @@
 #ifndef MONGE_CLI_OUTPUTS_H
 #define MONGE_CLI_OUTPUTS_H
 
+#include <pthread.h>
+
+#include "cli/scenes.h"
 #include "cli/sweep.h"
 
 struct output {
-    const char *scene;            /* as the user gave it; "-": standard input */
-    char *name;                   /* owned: the scene's file name without .yaml or .yml; "stdin" */
+    const char *scene, *name;     /* its path and its name, of `scenes` */
     struct monge_define *defines; /* owned: a combination of the sweep */
     char *title;                  /* owned: the scene, and the values that tell it from others of the sweep */
     char *path; /* owned; "-": standard output. With --frames a pattern: its {frame} is not known yet */
@@ -15,21 +17,30 @@ struct output {
 struct claim;
 
 struct plan {
-    const char *wanted, *stats; /* the values of -o and --stats; NULL: not given */
+    const char *wanted, *stats, *log; /* the values of -o, --stats and --log; NULL: not given */
     const struct sweep *sweep;
+    const struct scenes *scenes;
     const struct option_value *frames; /* NULL: --frames is not given */
-    size_t scene_count;
+    unsigned passes;                   /* a bit 1 << layer for each that --aov asks for */
     struct output *outputs; /* each scene with each combination, the combinations running fastest */
     size_t count;
+    pthread_mutex_t lock; /* of the claims */
     struct claim *claims; /* files that are read or written */
     size_t claim_count;
 };
 
-/* Plans the outputs, makes the folders that -o asks for, and sees to it that nothing is written twice, or
- * over a scene or the file of --stats, or where nothing can be written. False when something is wrong, with
- * the reason on stderr. Either way to be freed. */
-bool plan_begin(struct plan *plan, const struct arguments *args, const struct sweep *sweep);
+/* Plans the outputs, and sees to it that nothing is written twice, or over a scene or the file of --stats or --log.
+ * False when something is wrong, with the reason on stderr. Either way to be freed. */
+bool plan_begin(struct plan *plan, const struct arguments *args, const struct scenes *scenes,
+                const struct sweep *sweep);
 void plan_free(struct plan *plan);
+
+/* Whether a picture can be written there; makes the folders that -o asks for. False: the reason has been told. As
+ * plan_frames, from any thread. */
+bool plan_reach(const struct plan *plan, const char *path);
+
+/* Whether pictures go where their order matters: to a pipe, a device or standard output. */
+bool plan_is_serial(const struct plan *plan);
 
 /* The same for the frames of an output, `last` being the last one of the whole animation: the paths of
  * frames[0 .. count-1]. NULL when something is wrong. To be freed by paths_free. */

@@ -178,3 +178,29 @@ char *pattern_expand(const char *pattern, const struct pattern_values *values) {
     }
     return text;
 }
+
+/* ---- Without a pattern ---- */
+
+int pattern_digits(unsigned number) {
+    int digits = 1;
+    while (number /= 10) digits++;
+    return digits;
+}
+
+char *pattern_usual(const struct sweep *sweep, const struct pattern_values *values) {
+    char *text = say_text("%s", values->name), *longer;
+    for (size_t i = 0; i < sweep->count; i++) {
+        if (sweep->axes[i].count == 1) continue;
+        char *safe = pattern_safe(values->defines[i].value);
+        longer = say_text("%s-%s=%s", text, values->defines[i].name, safe);
+        free(safe);
+        free(text);
+        text = longer;
+    }
+    if (!values->frames) return text;
+    char *frame = frame_text(values, values->digits < 4 ? 4 : values->digits);
+    longer = say_text("%s-%s", text, frame);
+    free(frame);
+    free(text);
+    return longer;
+}

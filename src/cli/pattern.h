@@ -31,6 +31,11 @@ bool pattern_has(const char *pattern, const char *word);
 bool pattern_has_frame(const char *pattern);
 bool pattern_is_plain(const char *pattern, bool frames);
 
+/* What a picture is called where nobody has a name for it, without an extension: NAME-a=1-0001. To be freed. */
+char *pattern_usual(const struct sweep *sweep, const struct pattern_values *values);
+
+int pattern_digits(unsigned number); /* that it has in decimal */
+
 /* The value as part of a file name. To be freed. */
 char *pattern_safe(const char *value);
 

@@ -4,285 +4,256 @@
 #include <string.h>
 
 #include "cli/asked.h"
+#include "cli/batch.h"
 #include "cli/clock.h"
 #include "cli/interrupt.h"
-#include "cli/load.h"
-#include "cli/outputs.h"
-#include "cli/progress.h"
+#include "cli/render_picture.h"
 #include "cli/say.h"
 #include "cli/stats.h"
+#include "cli/unchanged.h"
 
-/* What there is to render, and what has become of it. */
-struct work {
-    struct arguments args;
-    struct loader loader;
-    struct plan plan;
-    struct picture *pictures; /* those tried so far; a scene that cannot be loaded counts as one */
-    size_t count;
-};
+/* ---- Pictures ---- */
 
-/* ---- What the options change ---- */
-
-static void override_settings(const struct option_value *option, struct monge_settings *settings) {
-    if (option[OPTION_SIZE].given) {
-        settings->width = option[OPTION_SIZE].number[0];
-        settings->height = option[OPTION_SIZE].number[1];
-    }
-    if (option[OPTION_SAMPLES].given) settings->samples = option[OPTION_SAMPLES].number[0];
-    if (option[OPTION_DEPTH].given) settings->depth = option[OPTION_DEPTH].number[0];
-    if (option[OPTION_BITS].given) settings->bits = option[OPTION_BITS].choice == 0 ? 8 : 16;
-    if (option[OPTION_SHADOW].given) settings->shadow = option[OPTION_SHADOW].fraction;
-    if (option[OPTION_NO_SHADOWS].given) settings->shadow = 1.0;
-    if (option[OPTION_SHADING].given) settings->shading = (enum monge_shading)option[OPTION_SHADING].choice;
-    if (option[OPTION_ENCODING].given)
-        settings->encoding = (enum monge_encoding)option[OPTION_ENCODING].choice;
-}
-
-/* The region that is asked for, or the whole picture. False, with the reason on stderr, when it is not inside. */
-static bool choose_region(const struct option_value *option, const char *scene,
-                          const struct monge_settings *settings, struct monge_region *region) {
-    *region = (struct monge_region){0, 0, settings->width, settings->height};
-    if (!option->given) return true;
-    const uint32_t *n = option->number;
-    *region = (struct monge_region){n[0], n[1], n[2], n[3]};
-    if ((uint64_t)n[0] + n[2] <= settings->width && (uint64_t)n[1] + n[3] <= settings->height) return true;
-    say_error("--region %s does not lie within the picture of %s, which is %ux%u", option->text, scene,
-              settings->width, settings->height);
-    return false;
-}
-
-/* ---- One picture ---- */
-
-static bool write_film(const struct monge_film *film, const char *path, struct report *report) {
-    struct monge_diagnostics *diag = report_open(report);
-    const bool written = diag && monge_film_write_png(film, path, diag);
-    if (diag) report_close(report, diag, !interrupt_pending());
-    return written;
-}
-
-/* *status is set where there is none: of a signal, memory, or what is wrong with the scene. */
-static struct monge_film *render_film(const struct option_value *option, const char *title,
-                                      const struct load *load, struct picture *picture, enum status *status) {
-    const enum progress_wish wish = (enum progress_wish)option[OPTION_PROGRESS].choice;
-    struct progress progress;
-    const struct monge_region *region = &picture->region;
-    const unsigned errors = monge_diagnostics_errors(load->diag);
-    char *asked = asked_text(option, picture->defines, picture->define_count, picture->frame);
-    struct monge_job job = {.threads = option[OPTION_THREADS].number[0],
-                            .cancel = interrupt_flag(),
-                            .diag = load->diag,
-                            .options = asked};
-    if (progress_wanted(wish, option[OPTION_QUIET].given)) {
-        job.progress = progress_update;
-        job.context = &progress;
-    }
-    progress_begin(&progress, title);
-    struct monge_film *film = monge_render(load->scene, &picture->settings, region, &job, &picture->stats);
-    progress_end(&progress);
-    free(asked);
-    if (film) return film;
-    const bool wrong = monge_diagnostics_errors(load->diag) != errors;
-    *status = wrong ? STATUS_NO : STATUS_TROUBLE;
-    if (!wrong && !interrupt_pending())
-        say_error("no memory for a picture of %ux%u", region->width, region->height);
-    return NULL;
-}
-
-/* "king"; of many pictures "king  picture 2 of 5", of frames "king  frame 12 of 48". */
-static char *progress_title(const struct work *work, const struct output *output, const struct load *load,
-                            unsigned frame) {
-    if (work->plan.frames) {
-        char *values = sweep_describe(&work->loader.sweep, output->defines);
-        char *title = say_text("%s%s%s  frame %u of %u", output->name, *values ? " " : "", values, frame,
-                               monge_scene_frames(load->scene));
-        free(values);
-        return title;
-    }
-    const size_t number = (size_t)(output - work->plan.outputs) + 1;
-    return work->plan.count > 1 ? say_text("%s  picture %zu of %zu", output->name, number, work->plan.count)
-                                : say_text("%s", output->name);
-}
-
-static enum status choose_settings(const struct work *work, const char *scene, const struct load *load,
-                                   struct picture *picture) {
-    const struct option_value *option = work->args.option;
-    picture->settings = monge_scene_settings(load->scene);
-    override_settings(option, &picture->settings);
-    const char *wrong = monge_settings_check(&picture->settings);
-    if (wrong) say_error("%s: %s", scene, wrong);
-    if (wrong || !choose_region(&option[OPTION_REGION], scene, &picture->settings, &picture->region))
-        return STATUS_TROUBLE;
-    if (load_allows(&work->loader, scene, &picture->settings)) return STATUS_YES;
-    return option[OPTION_SIZE].given ? STATUS_TROUBLE : STATUS_NO;
-}
-
-/* Everything after loading. A signal in here ends the program once nothing is half done. */
-static enum status render_scene(struct work *work, const struct output *output, const struct load *load,
-                                struct picture *picture) {
-    enum status status = choose_settings(work, output->scene, load, picture);
-    if (status != STATUS_YES) return status;
-    char *title = progress_title(work, output, load, picture->frame);
-    interrupt_defer();
-    struct monge_film *film = render_film(work->args.option, title, load, picture, &status);
-    report_show(&work->loader.report, load->diag);
-    const double rendered = clock_seconds();
-    picture->done = film && write_film(film, picture->output, &work->loader.report);
-    if (film && !picture->done) status = STATUS_TROUBLE;
-    picture->write_seconds = clock_seconds() - rendered;
-    picture->peak_memory_bytes = stats_peak_memory();
-    monge_film_free(film);
-    interrupt_settle();
-    free(title);
-    return status;
-}
-
-/* The scene as it is now, which began to be loaded at `begun`. */
-static enum status render_picture(struct work *work, const struct output *output, struct load *load,
-                                  double begun, struct picture *picture) {
-    const double loaded = clock_seconds();
-    const bool built = monge_scene_prepare(load->scene); /* here a signal may still end the program at once */
-    const double prepared = clock_seconds();
-    if (!built)
-        say_error("%s: no memory for %zu primitives", output->scene, monge_scene_primitives(load->scene));
-    if (built) load_examine(&work->loader, load);
-    const enum status status = built ? render_scene(work, output, load, picture) : STATUS_TROUBLE;
-    picture->primitives = monge_scene_primitives(load->scene);
-    picture->load_seconds = loaded - begun;
-    picture->stats.build_seconds += prepared - loaded;
-    if (picture->done && !work->args.option[OPTION_QUIET].given)
-        say_note("wrote %s  %ux%u  %.2f s",
-                 strcmp(picture->output, "-") == 0 ? "standard output" : picture->output,
-                 picture->region.width, picture->region.height, clock_seconds() - begun);
-    return status;
-}
-
-/* ---- The frames of a scene ---- */
-
-static struct picture *add_picture(struct work *work, const struct output *output, const char *path,
-                                   unsigned frame) {
-    struct picture *pictures = realloc(work->pictures, (work->count + 1) * sizeof *pictures);
+static struct picture *add_picture(struct unit *unit, const char *path, unsigned frame) {
+    struct picture *pictures = realloc(unit->pictures, (unit->count + 1) * sizeof *pictures);
     if (!pictures) {
         say_error("out of memory");
         exit(STATUS_TROUBLE);
     }
-    work->pictures = pictures;
-    pictures[work->count] = (struct picture){.scene = output->scene,
+    unit->pictures = pictures;
+    pictures[unit->count] = (struct picture){.scene = unit->output->scene,
                                              .output = say_text("%s", path),
                                              .frame = frame,
-                                             .defines = output->defines,
-                                             .define_count = work->loader.sweep.count};
-    return &pictures[work->count++];
+                                             .defines = unit->output->defines,
+                                             .define_count = unit->work->loader.sweep.count};
+    return &pictures[unit->count++];
 }
 
-/* The frames that --frames asks for, of an animation of `total`; without it the first alone. NULL, with the reason
- * on stderr, where they are not there. To be freed. */
-static unsigned *choose_frames(const struct option_value *option, const char *scene, unsigned total,
-                               size_t *count) {
-    const unsigned first = option->given ? option->number[0] : 1,
-                   step = option->given ? option->number[2] : 1;
-    const unsigned last = !option->given ? 1 : option->number[1] ? option->number[1] : total;
-    if (option->given && total == 0) {
-        say_error("--frames %s: %s has no animation; `animation: {frames: 48}` makes one", option->text,
-                  scene);
-        return NULL;
-    }
-    if (option->given && (first > total || last > total)) {
-        say_error("--frames %s: %s has %u frame%s", option->text, scene, total, total == 1 ? "" : "s");
-        return NULL;
-    }
-    *count = (last - first) / step + 1;
-    unsigned *frames = calloc(*count, sizeof *frames);
-    for (size_t i = 0; frames && i < *count; i++) frames[i] = first + (unsigned)i * step;
-    if (!frames) say_error("out of memory");
-    return frames;
-}
-
-/* Frame number `index` of those to render; the scene stands at the first already. */
-static enum status render_frame(struct work *work, const struct output *output, struct load *load,
-                                const char *path, unsigned frame, size_t index, double begun) {
-    struct picture *picture = add_picture(work, output, path, work->plan.frames ? frame : 0);
-    const enum status status = index == 0 ? STATUS_YES : load_frame(&work->loader, load, frame);
-    if (status == STATUS_YES) return render_picture(work, output, load, begun, picture);
-    if (!work->args.option[OPTION_QUIET].given) say_note("frame %u of %s is left out", frame, output->title);
+/* The last picture of the unit is done. */
+static enum status end_picture(struct unit *unit, enum status status) {
+    progress_done(&unit->progress, unit->pictures[unit->count - 1].outcome);
     return status;
 }
 
-static enum status render_frames(struct work *work, const struct output *output, struct load *load,
-                                 double begun) {
+/* The picture that there is no picture of. */
+static enum status fail_output(struct unit *unit, enum status status) {
+    add_picture(unit, unit->output->path, 0);
+    return end_picture(unit, status);
+}
+
+/* Whether the last picture is there already. */
+static bool is_unchanged(struct unit *unit) {
+    struct work *work = unit->work;
+    struct picture *picture = &unit->pictures[unit->count - 1];
+    if (!work_wants(work, OPTION_SKIP_UNCHANGED) && !work_wants(work, OPTION_RESUME)) return false;
+    char *asked = asked_text(work->args.option, picture->defines, picture->define_count, picture->frame);
+    const bool same = unchanged_picture(picture->output, picture->scene, asked, &work->loader.limits.load);
+    free(asked);
+    if (same) picture->outcome = PICTURE_UNCHANGED;
+    if (same && !work_wants(work, OPTION_QUIET)) say_note("unchanged %s", picture->output);
+    return same;
+}
+
+/* ---- The frames of a scene ---- */
+
+/* Into the last picture; the scene stands at frame *at, which moves. */
+static enum status render_frame(struct unit *unit, struct load *load, unsigned frame, unsigned *at,
+                                double begun) {
+    const struct work *work = unit->work;
+    const char *path = unit->pictures[unit->count - 1].output;
+    if (work->plan.frames && !plan_reach(&work->plan, path)) return STATUS_TROUBLE;
+    if (work->plan.frames && is_unchanged(unit)) return STATUS_YES;
+    const enum status status = frame == *at ? STATUS_YES : load_frame(&unit->work->loader, load, frame);
+    if (status == STATUS_YES) {
+        *at = frame;
+        return render_picture(unit, load, begun);
+    }
+    if (!work_wants(work, OPTION_QUIET)) say_note("frame %u of %s is left out", frame, unit->output->title);
+    return status;
+}
+
+static enum status render_frames(struct unit *unit, struct load *load, const unsigned *frames, char **paths,
+                                 size_t count, double begun) {
+    enum status worst = STATUS_YES;
+    unsigned at = frames[0];
+    progress_pictures(&unit->progress, count);
+    for (size_t i = 0; i < count && !interrupt_pending(); i++) {
+        add_picture(unit, paths[i], unit->work->plan.frames ? frames[i] : 0);
+        const enum status status =
+            end_picture(unit, render_frame(unit, load, frames[i], &at, i == 0 ? begun : clock_seconds()));
+        if (status > worst) worst = status;
+        if (status != STATUS_YES && work_wants(unit->work, OPTION_FAIL_FAST)) break;
+    }
+    return worst;
+}
+
+static enum status render_load(struct unit *unit, struct load *load, double begun) {
+    struct work *work = unit->work;
     size_t count = 0;
     const unsigned total = monge_scene_frames(load->scene);
-    unsigned *frames = choose_frames(&work->args.option[OPTION_FRAMES], output->scene, total, &count);
-    char **paths = frames ? plan_frames(&work->plan, output, frames, count, total) : NULL;
-    enum status worst = paths ? STATUS_YES : STATUS_TROUBLE;
-    if (!paths) add_picture(work, output, output->path, 0);
-    for (size_t i = 0; paths && i < count; i++) {
-        const enum status status =
-            render_frame(work, output, load, paths[i], frames[i], i, i == 0 ? begun : clock_seconds());
-        if (status > worst) worst = status;
-    }
+    unsigned *frames = asked_frames(&work->args.option[OPTION_FRAMES], unit->output->scene, total, &count);
+    char **paths = frames ? plan_frames(&work->plan, unit->output, frames, count, total) : NULL;
+    const enum status status =
+        paths ? render_frames(unit, load, frames, paths, count, begun) : fail_output(unit, STATUS_TROUBLE);
     paths_free(paths, count);
     free(frames);
-    return worst;
-}
-
-static enum status render_output(struct work *work, const struct output *output) {
-    const double begun = clock_seconds();
-    struct load load =
-        load_scene(&work->loader, output->scene, output->defines, work->args.option[OPTION_FRAMES].number[0]);
-    enum status status = load.status;
-    if (load.scene)
-        status = render_frames(work, output, &load, begun);
-    else
-        add_picture(work, output, output->path, 0);
-    load_close(&work->loader, &load);
     return status;
 }
 
-/* ---- All pictures ---- */
+/* ---- Units ---- */
 
-static enum status render_outputs(struct work *work) {
-    const struct option_value *option = work->args.option;
-    enum status worst = STATUS_YES;
-    size_t done = 0;
-    for (size_t i = 0; i < work->plan.count; i++) {
-        const enum status status = render_output(work, &work->plan.outputs[i]);
-        if (status > worst) worst = status;
+/* Without --frames, all that can be known before the scene is loaded. */
+static bool is_settled(struct unit *unit, enum status *status) {
+    if (unit->work->plan.frames) return false;
+    add_picture(unit, unit->output->path, 0);
+    const bool reached = plan_reach(&unit->work->plan, unit->output->path);
+    *status = reached ? STATUS_YES : STATUS_TROUBLE;
+    if (!reached || is_unchanged(unit)) {
+        end_picture(unit, *status);
+        return true;
     }
-    for (size_t i = 0; i < work->count; i++) done += work->pictures[i].done;
-    if (done < work->count && work->count > 1 && !option[OPTION_QUIET].given)
-        say_note("%zu rendered, %zu failed", done, work->count - done);
-    if (!option[OPTION_STATS].text) return worst;
+    free(unit->pictures[--unit->count].output);
+    return false;
+}
+
+static enum status render_output(struct unit *unit) {
+    struct loader *loader = &unit->work->loader;
+    const unsigned frame = unit->work->args.option[OPTION_FRAMES].number[0];
+    const double begun = clock_seconds();
+    enum status status;
+    if (is_settled(unit, &status)) return status;
+    struct load load = load_scene(loader, unit->output->scene, unit->output->defines, frame);
+    status = load.scene ? render_load(unit, &load, begun) : fail_output(unit, load.status);
+    load_close(loader, &load);
+    return status;
+}
+
+static bool run_unit(void *context, size_t index) {
+    struct work *work = context;
+    struct unit *unit = &work->units[index];
+    *unit = (struct unit){.work = work, .output = &work->plan.outputs[index]};
+    unit->progress = (struct progress_unit){.progress = &work->progress, .pictures = 1};
+    unit->status = render_output(unit);
+    return unit->status == STATUS_YES || !work_wants(work, OPTION_FAIL_FAST);
+}
+
+static void end_unit(void *context, size_t index, const char *said) {
+    struct work *work = context;
+    const struct unit *unit = &work->units[index];
+    if (*said) progress_hide(&work->progress);
+    fputs(said, stderr);
+    for (size_t i = 0; i < unit->count; i++) {
+        work->outcomes[unit->pictures[i].outcome]++;
+        log_picture(&work->log, &unit->pictures[i]);
+    }
+    if (unit->status > work->worst) work->worst = unit->status;
+}
+
+/* Several loads at once would mix up a document of what is wrong; and what goes to a pipe has an order. */
+static unsigned choose_jobs(const struct work *work) {
+    const struct option_value *option = &work->args.option[OPTION_JOBS];
+    const unsigned jobs = option->given ? option->number[0] : monge_processors();
+    if (work->loader.report.format != MONGE_FORMAT_TEXT || plan_is_serial(&work->plan)) return 1;
+    return jobs < work->plan.count ? jobs : work->plan.count > 0 ? (unsigned)work->plan.count : 1;
+}
+
+/* ---- What has become of all ---- */
+
+enum { FEW = 10 }; /* pictures; of more, a failure may have left the screen by the end */
+
+static void list_failures(const struct work *work) {
+    for (size_t i = 0; i < work->begun; i++)
+        for (size_t k = 0; k < work->units[i].count; k++) {
+            const struct picture *p = &work->units[i].pictures[k];
+            if (p->outcome == PICTURE_FAILED)
+                say_note("failed %s  from %s", p->output, work->units[i].output->title);
+        }
+}
+
+static void summarize(const struct work *work) {
+    const size_t *n = work->outcomes, left = work->plan.count - work->begun;
+    const size_t all = n[PICTURE_RENDERED] + n[PICTURE_UNCHANGED] + n[PICTURE_FAILED];
+    const bool wanted = all > FEW || (all + left > 1 && n[PICTURE_RENDERED] < all + left);
+    if (!wanted || work_wants(work, OPTION_QUIET)) return;
+    char *unchanged =
+        n[PICTURE_UNCHANGED] ? say_text(", %zu unchanged", n[PICTURE_UNCHANGED]) : say_text("%s", "");
+    char *failed = n[PICTURE_FAILED] ? say_text(", %zu failed", n[PICTURE_FAILED]) : say_text("%s", "");
+    char *rest = left ? say_text(", %zu not begun", left) : say_text("%s", "");
+    say_note("%zu rendered%s%s%s", n[PICTURE_RENDERED], unchanged, failed, rest);
+    free(rest);
+    free(failed);
+    free(unchanged);
+    if (all > FEW) list_failures(work);
+}
+
+static bool write_stats(const struct work *work, const char *path) {
+    size_t count = 0;
+    for (size_t i = 0; i < work->begun; i++) count += work->units[i].count;
+    struct picture *all = calloc(count + 1, sizeof *all), *to = all;
+    for (size_t i = 0; all && i < work->begun; i++)
+        for (size_t k = 0; k < work->units[i].count; k++) *to++ = work->units[i].pictures[k];
+    if (!all) say_error("out of memory");
     interrupt_defer();
-    if (!stats_write(option[OPTION_STATS].text, work->pictures, work->count)) worst = STATUS_TROUBLE;
+    const bool written = all && stats_write(path, all, count);
     interrupt_settle();
-    return worst;
+    free(all);
+    return written;
+}
+
+/* ---- All of it ---- */
+
+static enum status render_all(struct work *work) {
+    const struct option_value *option = work->args.option;
+    const struct batch batch = {work->plan.count, choose_jobs(work), work, run_unit, end_unit};
+    work->worst = work->loader.scenes.status;
+    progress_begin(&work->progress, (enum progress_wish)option[OPTION_PROGRESS].choice,
+                   option[OPTION_QUIET].given, work->plan.count);
+    work->begun = batch_run(&batch);
+    progress_end(&work->progress);
+    summarize(work);
+    if (option[OPTION_STATS].text && !write_stats(work, option[OPTION_STATS].text))
+        work->worst = STATUS_TROUBLE;
+    return log_close(&work->log) ? work->worst : STATUS_TROUBLE;
 }
 
 static bool work_begin(struct work *work, const struct arguments *args) {
     *work = (struct work){.args = *args};
-    if (!loader_begin(&work->loader, args) || !plan_begin(&work->plan, args, &work->loader.sweep))
+    if (!loader_begin(&work->loader, args) ||
+        !plan_begin(&work->plan, args, &work->loader.scenes, &work->loader.sweep) ||
+        !log_open(&work->log, args->option[OPTION_LOG].text))
         return false;
     /* a document on stderr must be alone there: the notes are left out */
-    if (work->loader.report.format != MONGE_FORMAT_TEXT) work->args.option[OPTION_QUIET].given = true;
-    return true;
+    if (work->loader.report.format != MONGE_FORMAT_TEXT ||
+        args->option[OPTION_PROGRESS].choice == PROGRESS_JSON)
+        work->args.option[OPTION_QUIET].given = true;
+    work->units = calloc(work->plan.count + 1, sizeof *work->units);
+    if (!work->units) say_error("out of memory");
+    return work->units != NULL;
 }
 
 static void work_end(struct work *work, bool begun) {
-    for (size_t i = 0; i < work->count; i++) free(work->pictures[i].output);
-    free(work->pictures);
+    for (size_t i = 0; i < work->begun; i++) {
+        for (size_t k = 0; k < work->units[i].count; k++) free(work->units[i].pictures[k].output);
+        free(work->units[i].pictures);
+    }
+    free(work->units);
     plan_free(&work->plan);
     loader_end(&work->loader, begun ? stderr : NULL);
 }
 
+static bool contradicts(const struct arguments *args, enum option_id a, enum option_id b) {
+    if (!args->option[a].given || !args->option[b].given) return false;
+    say_usage(COMMAND_RENDER, "--%s and --%s: give one of them", OPTION_TABLE[a].name, OPTION_TABLE[b].name);
+    return true;
+}
+
 enum status render_command(const struct arguments *args) {
-    const struct option_value *option = args->option;
     struct work work;
-    if (option[OPTION_SHADOW].given && option[OPTION_NO_SHADOWS].given) {
-        say_usage(COMMAND_RENDER, "--shadow and --no-shadows: give one of them");
+    if (contradicts(args, OPTION_SHADOW, OPTION_NO_SHADOWS) ||
+        contradicts(args, OPTION_KEEP_GOING, OPTION_FAIL_FAST))
         return STATUS_TROUBLE;
-    }
     const bool begun = work_begin(&work, args);
-    const enum status status = begun ? render_outputs(&work) : STATUS_TROUBLE;
+    const enum status status = begun ? render_all(&work) : STATUS_TROUBLE;
     work_end(&work, begun);
     return status;
 }

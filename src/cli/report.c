@@ -20,7 +20,7 @@ struct monge_diagnostics *report_open(struct report *report) {
 }
 
 void report_show(const struct report *report, struct monge_diagnostics *diag) {
-    if (diag != report->all) monge_diagnostics_print_new(diag, stderr);
+    if (diag != report->all) monge_diagnostics_print_new(diag, say_stream());
 }
 
 void report_close(struct report *report, struct monge_diagnostics *diag, bool wanted) {

@@ -1,4 +1,4 @@
-/* Where diagnostics go: as text to stderr, those of each scene as soon as they are known; or, with
+/* Where diagnostics go: as text to where this thread says things, those of each scene as soon as they are known; or, with
  * --format, gathered in one document for programs. */
 #ifndef MONGE_CLI_REPORT_H
 #define MONGE_CLI_REPORT_H

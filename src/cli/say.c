@@ -8,6 +8,11 @@
 #include <string.h>
 #include <unistd.h>
 
+static _Thread_local FILE *diverted;
+
+FILE *say_stream(void) { return diverted ? diverted : stderr; }
+void say_divert(FILE *stream) { diverted = stream; }
+
 static char *format_text(const char *format, va_list args) {
     char *text = NULL;
     if (vasprintf(&text, format, args) >= 0) return text;
@@ -19,7 +24,7 @@ static void print_line(const char *prefix, const char *format, va_list args) {
     char *text = format_text(format, args);
     for (char *c = text; *c; c++)
         if ((unsigned char)*c < 0x20 || *c == 0x7f) *c = '?';
-    fprintf(stderr, "%s%s\n", prefix, text);
+    fprintf(say_stream(), "%s%s\n", prefix, text);
     free(text);
 }
 
@@ -36,9 +41,9 @@ void say_usage(enum command_id command, const char *format, ...) {
     print_line("monge: ", format, args);
     va_end(args);
     if (command == COMMAND_NONE)
-        fputs("see `monge help`\n", stderr);
+        fputs("see `monge help`\n", say_stream());
     else
-        fprintf(stderr, "see `monge help %s`\n", COMMAND_TABLE[command].name);
+        fprintf(say_stream(), "see `monge help %s`\n", COMMAND_TABLE[command].name);
 }
 
 void say_note(const char *format, ...) {

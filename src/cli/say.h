@@ -2,15 +2,21 @@
 #ifndef MONGE_CLI_SAY_H
 #define MONGE_CLI_SAY_H
 
+#include <stdio.h>
+
 #include "cli/commands.h"
 
-/* "monge: ..." as a line on stderr, with control characters, which may come from file names, made harmless. */
+/* Where the lines of this thread go: stderr, or a stream that it has been diverted to (NULL: no longer). */
+FILE *say_stream(void);
+void say_divert(FILE *stream);
+
+/* "monge: ..." as a line on that stream, with control characters, which may come from file names, made harmless. */
 void say_error(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
 /* The same, and then where to read about the command. */
 void say_usage(enum command_id command, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* A line on stderr, like say_error's but without "monge: ". */
+/* A line there, like say_error's but without "monge: ". */
 void say_note(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
 /* As asprintf; ends the program where there is no memory. To be freed. */

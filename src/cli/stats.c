@@ -1,7 +1,6 @@
 #include "cli/stats.h"
 
 #include <errno.h>
-#include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
@@ -17,58 +16,13 @@ uint64_t stats_peak_memory(void) {
 
 /* ---- JSON ---- */
 
-static void print_rays(FILE *out, const uint64_t rays[MONGE_RAY_KINDS]) {
-    static const char *const names[MONGE_RAY_KINDS] = {
-        [MONGE_RAY_CAMERA] = "camera",
-        [MONGE_RAY_SHADOW] = "shadow",
-        [MONGE_RAY_REFLECTION] = "reflection",
-        [MONGE_RAY_REFRACTION] = "refraction",
-    };
-    uint64_t total = 0;
-    fputs(", \"rays\": {", out);
-    for (int kind = 0; kind < MONGE_RAY_KINDS; kind++) {
-        fprintf(out, "\"%s\": %" PRIu64 ", ", names[kind], rays[kind]);
-        total += rays[kind];
-    }
-    fprintf(out, "\"total\": %" PRIu64 "}", total);
-}
-
-static void print_params(FILE *out, const struct picture *p) {
-    fputs(", \"params\": {", out);
-    for (size_t i = 0; i < p->define_count; i++) {
-        fputs(i > 0 ? ", " : "", out);
-        monge_write_json_string(p->defines[i].name, out);
-        fputs(": ", out);
-        monge_write_json_string(p->defines[i].value, out);
-    }
-    fputs("}", out);
-}
-
-static void print_picture(FILE *out, const struct picture *p) {
-    fputs("    {\"scene\": ", out);
-    monge_write_json_string(p->scene, out);
-    fputs(", \"output\": ", out);
-    monge_write_json_string(p->output, out);
-    if (p->frame) fprintf(out, ", \"frame\": %u", p->frame);
-    if (p->define_count > 0) print_params(out, p);
-    if (!p->done) {
-        fputs(", \"error\": true}", out);
-        return;
-    }
-    fprintf(out, ", \"width\": %u, \"height\": %u, \"samples\": %u, \"threads\": %u, \"primitives\": %zu",
-            p->region.width, p->region.height, p->settings.samples, p->stats.threads, p->primitives);
-    fprintf(out, ", \"seconds\": {\"load\": %.6f, \"build\": %.6f, \"render\": %.6f, \"write\": %.6f}",
-            p->load_seconds, p->stats.build_seconds, p->stats.render_seconds, p->write_seconds);
-    print_rays(out, p->stats.rays);
-    fprintf(out, ", \"peak_memory_bytes\": %" PRIu64 "}", p->peak_memory_bytes);
-}
-
 static void print_all(FILE *out, const struct picture *pictures, size_t count) {
     fputs("{\n  \"version\": ", out);
     monge_write_json_string(monge_version(), out);
     fputs(",\n  \"pictures\": [\n", out);
     for (size_t i = 0; i < count; i++) {
-        print_picture(out, &pictures[i]);
+        fputs("    ", out);
+        picture_write_json(&pictures[i], out);
         fputs(i + 1 < count ? ",\n" : "\n", out);
     }
     fputs("  ]\n}\n", out);

@@ -2,22 +2,9 @@
 #ifndef MONGE_CLI_STATS_H
 #define MONGE_CLI_STATS_H
 
-#include "monge.h"
+#include <stdbool.h>
 
-struct picture {
-    const char *scene; /* as the user knows it; "-" for the standard streams, here and in output */
-    char *output;      /* owned */
-    unsigned frame;    /* 0: --frames is not given */
-    const struct monge_define *defines;
-    size_t define_count;
-    bool done; /* else the rest means nothing */
-    struct monge_settings settings;
-    struct monge_region region; /* what was rendered of it: the size of the file */
-    struct monge_stats stats;
-    size_t primitives;
-    double load_seconds, write_seconds;
-    uint64_t peak_memory_bytes; /* of the process, until the picture was done */
-};
+#include "cli/picture.h"
 
 uint64_t stats_peak_memory(void);
 

@@ -36,9 +36,11 @@ static char *follow_links(const char *path) {
     return NULL;
 }
 
-/* Creates a file .NAME.XXXXXX.tmp beside `target`: not by mkstemp, whose files miss the permissions
- * that the umask would give, and to ask for the umask means to change it for all threads. */
-static int create_beside(const char *target, char **temporary) {
+/* Makes a file .NAME.XXXXXX.tmp beside `target` by `make`, which returns a negative number where it cannot; returns
+ * what it does. Not by mkstemp, whose files miss the permissions that the umask would give, and to ask for the umask
+ * means to change it for all threads. */
+static int make_beside(const char *target, int (*make)(const char *path, int fd), int from,
+                       char **temporary) {
     static const char digits[] = "0123456789abcdefghijklmnopqrstuvwxyz";
     const size_t folder = folder_length(target);
     struct timespec now;
@@ -51,13 +53,40 @@ static int create_beside(const char *target, char **temporary) {
         if (asprintf(temporary, "%.*s.%.*s.%s.tmp", (int)folder, target, MAX_NAME_KEPT, target + folder,
                      random) < 0)
             break;
-        const int fd = open(*temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-        if (fd >= 0) return fd;
+        const int made = make(*temporary, from);
+        if (made >= 0) return made;
         free(*temporary);
         if (errno != EEXIST) break;
     }
     *temporary = NULL;
     return -1;
+}
+
+static int create_file(const char *path, int fd) {
+    (void)fd;
+    return open(path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+}
+
+/* Gives the file without a name that `fd` is one. */
+static int link_file(const char *path, int fd) {
+    char file[32];
+    snprintf(file, sizeof file, "/proc/self/fd/%d", fd);
+    return linkat(AT_FDCWD, file, AT_FDCWD, path, AT_SYMLINK_FOLLOW);
+}
+
+/* A file without a name in the folder of `target`; negative where there is no such thing. */
+static int create_nameless(const char *target) {
+    const size_t length = folder_length(target);
+    char *folder = length ? strndup(target, length) : strdup(".");
+    const bool linkable = folder && access("/proc/self/fd", X_OK) == 0;
+    const int fd = linkable ? open(folder, O_WRONLY | O_TMPFILE | O_CLOEXEC, 0666) : -1;
+    free(folder);
+    return fd;
+}
+
+static int open_new(struct replacement *file) {
+    const int fd = create_nameless(file->target);
+    return fd >= 0 ? fd : make_beside(file->target, create_file, -1, &file->temporary);
 }
 
 /* NULL, with errno, for a negative fd. */
@@ -72,7 +101,7 @@ static FILE *stream_from(int fd) {
 static bool open_beside(struct replacement *file, const char *path, const struct stat *old) {
     if (old && access(path, W_OK) != 0) return false; /* its owner does not want it changed */
     file->target = follow_links(path);
-    if (file->target) file->stream = stream_from(create_beside(file->target, &file->temporary));
+    if (file->target) file->stream = stream_from(open_new(file));
     if (file->stream && (!old || fchmod(fileno(file->stream), old->st_mode & 0777) == 0)) return true;
     replace_abandon(file);
     return false;
@@ -87,26 +116,33 @@ bool replace_begin(struct replacement *file, const char *path) {
     return (file->stream = stream_from(open(path, O_WRONLY | O_CLOEXEC))) != NULL;
 }
 
-/* Sees to it that every byte has been taken, and closes. */
-static bool finish_stream(FILE *stream, bool sync) {
-    bool good = fflush(stream) == 0;
-    if (good && ferror(stream)) {
-        errno = EIO; /* the first cause is lost */
-        good = false;
-    }
-    good = good && (!sync || fsync(fileno(stream)) == 0);
-    return stream == stdout ? good : fclose(stream) == 0 && good;
+/* Sees to it that every byte has been taken. */
+static bool flush_stream(FILE *stream, bool sync) {
+    if (fflush(stream) != 0) return false;
+    if (ferror(stream)) errno = EIO; /* the first cause is lost */
+    return !ferror(stream) && (!sync || fsync(fileno(stream)) == 0);
+}
+
+/* The file without a name gets that of the target, or where another has it, a temporary one. */
+static bool name_file(struct replacement *file) {
+    const int fd = fileno(file->stream);
+    if (file->temporary || link_file(file->target, fd) == 0) return true;
+    return errno == EEXIST && make_beside(file->target, link_file, fd, &file->temporary) == 0;
+}
+
+static bool put_in_place(struct replacement *file) {
+    if (!file->temporary) return true;
+    if (rename(file->temporary, file->target) != 0) return false;
+    free(file->temporary);
+    file->temporary = NULL; /* it has gone */
+    return true;
 }
 
 bool replace_commit(struct replacement *file) {
-    bool good = finish_stream(file->stream, file->temporary != NULL);
+    bool good = flush_stream(file->stream, file->target != NULL) && (!file->target || name_file(file));
+    if (file->stream != stdout) good = fclose(file->stream) == 0 && good;
     file->stream = NULL;
-    if (good && file->temporary && rename(file->temporary, file->target) == 0) {
-        free(file->temporary);
-        file->temporary = NULL; /* it has gone */
-    } else if (file->temporary) {
-        good = false;
-    }
+    good = good && put_in_place(file);
     replace_abandon(file);
     return good;
 }

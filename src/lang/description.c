@@ -39,6 +39,20 @@ const char *object_names(struct arena *arena, const struct object_value *object,
     return text;
 }
 
+const char *const *object_texts(struct arena *arena, const struct object_value *object, int key) {
+    const struct node *node = object->fields[key] ? node_resolve(object->fields[key]->node) : NULL;
+    if (!node || node->kind == NODE_MAPPING) return NULL;
+    const bool one = node->kind == NODE_SCALAR;
+    const char **texts = arena_array(arena, one ? 2 : node->count + 1, sizeof *texts);
+    size_t count = 0;
+    for (const struct node *item = one ? node : node->first; item; item = one ? NULL : item->next) {
+        const struct node *text = node_resolve(item);
+        if (text->kind != NODE_SCALAR || text->count == 0) return NULL;
+        texts[count++] = text->text;
+    }
+    return count ? texts : NULL;
+}
+
 const affine *object_matrix(const struct object_value *object, int key) {
     return object->fields[key] ? object->fields[key]->matrix : NULL;
 }

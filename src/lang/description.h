@@ -60,6 +60,9 @@ const char *object_text(const struct object_value *object, int key); /* NULL: no
 const char *object_reference(const struct object_value *object, int key, uint32_t *number);
 /* The names in a value of type ranges or values, as "i, j", in the arena; NULL: not given. */
 const char *object_names(struct arena *arena, const struct object_value *object, int key);
+
+/* The texts of a value of type files, up to a NULL, in the arena; NULL: not given, or something in it is no text. */
+const char *const *object_texts(struct arena *arena, const struct object_value *object, int key);
 const affine *object_matrix(const struct object_value *object, int key); /* NULL: not given */
 struct object_value *object_object(const struct object_value *object,
                                    int key); /* NULL: not given, or not a mapping */

@@ -186,3 +186,14 @@ void lang_read_frame(struct lang_result *result, struct diagnostics *diag, unsig
     if (file) file->failed = diag->errors != errors;
     result->file = file;
 }
+
+const struct object_value *lang_read_goldens(struct lang_memory *memory, struct diagnostics *diag,
+                                             const struct lang_input *input) {
+    struct checker *ck = &begin_reading(memory, diag, input)->checker;
+    const struct node_limits limits = {input->limits.nesting, input->limits.values};
+    struct node_problem problem = {0};
+    const struct node *root = node_parse(&memory->nodes, diag, input->source, &limits, NULL, &problem);
+    if (problem.text) problem_report(diag, &problem);
+    ck->provisional = false;
+    return root ? check_object(ck, &grammar_kinds[KIND_GOLDENS], root) : NULL;
+}

@@ -97,6 +97,11 @@ struct lang_result {
 struct lang_result lang_read(struct lang_memory *memory, struct diagnostics *diag,
                              const struct lang_input *input);
 
+/* Reads the settings of goldens: an object of kind goldens, or NULL. All that is wrong is reported to `diag`. Of the
+ * input the source, its path and the limits count. */
+const struct object_value *lang_read_goldens(struct lang_memory *memory, struct diagnostics *diag,
+                                             const struct lang_input *input);
+
 /* The file's settings, camera and lights at another frame, of a scene that was right and whose objects do not
  * move; its memory, and what its input points to but for the sink, are still there. *result is renewed, and
  * good until the next call. */

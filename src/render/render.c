@@ -1,34 +1,16 @@
 #include "render/render.h"
 
-#include "base/parallel.h"
-#include "render/camera.h"
-#include "render/trace.h"
+#include "render/lights.h"
+#include "render/tiles.h"
 
-#ifdef MONGE_HOSTILE
-enum { TILE_SIZE = 1 };
-#else
-enum { TILE_SIZE = 32 }; /* pixels a side */
-#endif
-
-#define NO_INSTANCE UINT32_MAX
-
-/* One rendering, shared by its threads: each takes the next tile until none is left. */
+/* One rendering, shared by its threads. */
 struct rendering {
     struct tracer tracer;
     struct view view;
-    const struct monge_job *job;
     struct monge_film *film;
-    uint32_t tiles_across, tile_count;
-    atomic_uint next_tile;
-    atomic_uint_fast64_t pixels_done;
-    atomic_uint too_many_in;   /* the number of an instance where a ray was given up; NO_INSTANCE: none */
-    atomic_flag reporting;     /* a thread is in job->progress */
     const vec3 *samples;       /* settings.samples places within a pixel, x and y in 0..1 */
     struct media_origin media; /* at the eye, for a perspective camera */
-    atomic_uint_fast64_t rays[MONGE_RAY_KINDS];
 };
-
-/* ---- What is decided once ---- */
 
 /* Van der Corput's sequence in base 2. */
 static double radical_inverse(uint32_t i) {
@@ -47,53 +29,12 @@ static vec3 *sample_places(struct arena *arena, uint32_t count) {
     return places;
 }
 
-/* A key light above the camera's left shoulder, so far away that it lights an endless floor evenly up to the
- * horizon, and a weak one in its eye, whose shadows it cannot see. */
-static struct light *default_lights(struct arena *arena, const struct view *view, uint32_t *count) {
-    struct light *lights = arena_array(arena, 2, sizeof *lights);
-    const vec3 across =
-        vec3_madd(vec3_scale(vec3_normalize(view->right), -0.6), 0.8, vec3_normalize(view->up));
-    const vec3 to_key = vec3_scale(vec3_sub(across, view->forward), 1000.0 * view->distance);
-    lights[0] = (struct light){LIGHT_POINT, vec3_add(view->eye, to_key), {0.95, 0.93, 0.9}};
-    lights[1] = (struct light){LIGHT_POINT, view->eye, {0.15, 0.17, 0.2}};
-    *count = 2;
-    return lights;
-}
-
-static void set_lights(struct arena *arena, struct rendering *rd, const struct scene *scene) {
-    struct tracer *tracer = &rd->tracer;
-    if (scene->default_lights) {
-        tracer->lights = default_lights(arena, &rd->view, &tracer->light_count);
-        tracer->ambient = (vec3){0.12, 0.12, 0.13};
-        return;
-    }
-    struct light *points = arena_array(arena, scene->light_count ? scene->light_count : 1, sizeof *points);
-    for (uint32_t i = 0; i < scene->light_count; i++) {
-        if (scene->lights[i].kind == LIGHT_POINT)
-            points[tracer->light_count++] = scene->lights[i];
-        else
-            tracer->ambient = vec3_add(tracer->ambient, scene->lights[i].color);
-    }
-    tracer->lights = points;
-}
-
-/* ---- Tiles ---- */
-
-static bool is_stopped(struct rendering *rd) {
-    return (rd->job->cancel && atomic_load(rd->job->cancel)) || atomic_load(&rd->too_many_in) != NO_INSTANCE;
-}
-
-/* Stops the others where the watch has stopped because of the scene. */
-static void tell_stop(struct rendering *rd, const struct accel_watch *watch) {
-    if (watch->stop == ACCEL_TOO_MANY_ENTRIES) atomic_store(&rd->too_many_in, watch->number);
-}
-
-static void render_pixel(struct rendering *rd, uint32_t x, uint32_t y, struct tracing *tracing) {
+static void render_pixel(const void *context, uint32_t x, uint32_t y, struct tracing *tracing) {
+    const struct rendering *rd = context;
     const struct monge_settings *s = &rd->tracer.settings;
     const struct monge_region *region = &rd->film->region;
     vec3 sum = {0, 0, 0};
     for (uint32_t i = 0; i < s->samples; i++) {
-        if (is_stopped(rd)) return;
         const double px = ((double)(region->x + x) + rd->samples[i].x) / s->width;
         const double py = ((double)(region->y + y) + rd->samples[i].y) / s->height;
         const ray r = camera_ray(&rd->view, px, py);
@@ -101,52 +42,11 @@ static void render_pixel(struct rendering *rd, uint32_t x, uint32_t y, struct tr
         if (rd->view.orthographic) media_at(rd->tracer.scene, rd->tracer.accel, &tracing->watch, r, &here);
         sum = vec3_add(
             sum, trace_ray(&rd->tracer, r, rd->view.orthographic ? &here.media : &rd->media.media, tracing));
-        tell_stop(rd, &tracing->watch);
     }
     float *pixel = film_pixel(rd->film, x, y);
     pixel[0] = (float)(sum.x / s->samples);
     pixel[1] = (float)(sum.y / s->samples);
     pixel[2] = (float)(sum.z / s->samples);
-}
-
-/* Never waits: while one thread reports, the others go on. */
-static void report(struct rendering *rd, uint64_t done) {
-    if (!rd->job->progress || atomic_flag_test_and_set(&rd->reporting)) return;
-    rd->job->progress(rd->job->context, done, (uint64_t)rd->film->region.width * rd->film->region.height);
-    atomic_flag_clear(&rd->reporting);
-}
-
-static void render_tile(struct rendering *rd, uint32_t tile, struct tracing *tracing) {
-    const struct monge_region *region = &rd->film->region;
-    const uint32_t x0 = tile % rd->tiles_across * TILE_SIZE, y0 = tile / rd->tiles_across * TILE_SIZE;
-    const uint32_t x1 = x0 + TILE_SIZE < region->width ? x0 + TILE_SIZE : region->width;
-    const uint32_t y1 = y0 + TILE_SIZE < region->height ? y0 + TILE_SIZE : region->height;
-    for (uint32_t y = y0; y < y1; y++)
-        for (uint32_t x = x0; x < x1; x++) render_pixel(rd, x, y, tracing);
-    if (is_stopped(rd)) return;
-    const uint64_t pixels = (uint64_t)(x1 - x0) * (y1 - y0);
-    report(rd, atomic_fetch_add(&rd->pixels_done, pixels) + pixels);
-}
-
-static void render_tiles(void *context, unsigned thread) {
-    struct rendering *rd = context;
-    struct tracing tracing = {.watch.cancel = rd->job->cancel};
-    (void)thread;
-    for (;;) {
-        const uint32_t tile = atomic_fetch_add(&rd->next_tile, 1);
-        if (tile >= rd->tile_count || is_stopped(rd)) break;
-        render_tile(rd, tile, &tracing);
-    }
-    for (int kind = 0; kind < MONGE_RAY_KINDS; kind++) atomic_fetch_add(&rd->rays[kind], tracing.rays[kind]);
-}
-
-static void report_entries(struct diagnostics *diag, const struct scene *scene, uint32_t number) {
-    const struct span span = origins_span(&scene->origins, scene->primitives.info[number].origin);
-    struct diagnostic *d =
-        diag_error(diag, span, "limit-instances", "a ray comes into more than %d instances of templates here",
-                   ACCEL_MAX_ENTRIES);
-    diag_help(diag, d,
-              "instances at one place multiply with each level: move them apart, or place one alone");
 }
 
 bool render_film(const struct scene *scene, const struct accel *accel, const struct monge_job *job,
@@ -158,26 +58,14 @@ bool render_film(const struct scene *scene, const struct accel *accel, const str
         return false;
     }
     struct rendering rd = {.tracer = {.scene = scene, .accel = accel, .settings = film->settings},
-                           .job = job,
-                           .film = film,
-                           .too_many_in = NO_INSTANCE,
-                           .reporting = ATOMIC_FLAG_INIT};
-    struct accel_watch watch = {.cancel = job->cancel};
+                           .film = film};
     rd.view = camera_view(scene, accel, film->settings.width, film->settings.height);
     rd.samples = sample_places(&arena, film->settings.samples);
+    struct accel_watch watch = {.cancel = job->cancel};
     media_at(scene, accel, &watch, (ray){rd.view.eye, rd.view.forward}, &rd.media);
-    tell_stop(&rd, &watch);
-    set_lights(&arena, &rd, scene);
-    rd.tiles_across = (film->region.width + TILE_SIZE - 1) / TILE_SIZE;
-    rd.tile_count = rd.tiles_across * ((film->region.height + TILE_SIZE - 1) / TILE_SIZE);
-
-    stats->threads = job->threads ? job->threads : parallel_processors();
-    if (stats->threads > PARALLEL_MAX_THREADS) stats->threads = PARALLEL_MAX_THREADS;
-    if (stats->threads > rd.tile_count) stats->threads = rd.tile_count;
-    parallel_run(stats->threads, render_tiles, &rd);
-    for (int kind = 0; kind < MONGE_RAY_KINDS; kind++) stats->rays[kind] = rd.rays[kind];
+    lights_set(&rd.tracer, &arena, &rd.view);
+    const struct tiling tiling = {film->region, job, scene, diag, render_pixel, &rd, film->rgb};
+    const bool done = tiles_goes_on(&watch, scene, diag) && tiles_run(&tiling, stats);
     arena_free(&arena);
-    const uint32_t too_many_in = atomic_load(&rd.too_many_in);
-    if (too_many_in != NO_INSTANCE && diag) report_entries(diag, scene, too_many_in);
-    return !is_stopped(&rd);
+    return done;
 }

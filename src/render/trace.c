@@ -54,6 +54,18 @@ static vec3 leave_point(const struct meeting *m, vec3 normal) {
     return vec3_madd(m->surface.point, m->surface.error, normal);
 }
 
+/* The normal, turned to the viewer where both sides are shaded alike. */
+static vec3 shaded_normal(const struct tracer *tracer, const struct meeting *m) {
+    return !m->outside && tracer->scene->two_sided ? vec3_neg(m->surface.normal) : m->surface.normal;
+}
+
+/* The part of a light that reaches the surface; `to_light` is unit. */
+static vec3 light_reaching(const struct path *path, const struct meeting *m, vec3 to_light,
+                           const struct light *light) {
+    const double side = vec3_dot(m->surface.normal, to_light) > 0.0 ? 1.0 : -1.0;
+    return transmittance(path, leave_point(m, vec3_scale(m->surface.normal, side)), light->at);
+}
+
 /* cosine to the power of the exponent, for a cosine of 0..1. Nothing where that is less than
  * exp(-40), by cosine^n <= exp(-n (1 - cosine)): most of a surface is far from its highlight. */
 static double highlight_power(double cosine, double exponent) {
@@ -79,14 +91,12 @@ static vec3 shade_light(const struct path *path, const struct meeting *m, vec3 n
     color = vec3_mul(color, light->color);
     const double shadow = tracer->settings.shadow;
     if (shadow >= 1.0) return color;
-    const double side = vec3_dot(m->surface.normal, to_light) > 0.0 ? 1.0 : -1.0;
-    const vec3 lit = transmittance(path, leave_point(m, vec3_scale(m->surface.normal, side)), light->at);
+    const vec3 lit = light_reaching(path, m, to_light, light);
     return vec3_mul(color, vec3_madd(vec3_all(shadow), 1.0 - shadow, lit));
 }
 
 static vec3 shade_local(const struct path *path, const struct meeting *m) {
-    const bool turn = !m->outside && path->tracer->scene->two_sided;
-    const vec3 normal = turn ? vec3_neg(m->surface.normal) : m->surface.normal;
+    const vec3 normal = shaded_normal(path->tracer, m);
     vec3 color = vec3_mul(m->material->ambient, path->tracer->ambient);
     for (uint32_t i = 0; i < path->tracer->light_count; i++)
         color = vec3_add(color, shade_light(path, m, normal, &path->tracer->lights[i]));
@@ -158,4 +168,29 @@ vec3 trace_ray(const struct tracer *tracer, ray r, const struct media *media, st
     struct path path = {tracer, tracing, media, 1, vec3_all(1.0)};
     tracing->rays[MONGE_RAY_CAMERA]++;
     return follow(&path, r);
+}
+
+bool trace_sight(const struct tracer *tracer, ray r, struct tracing *tracing, struct sight *out) {
+    struct sight sight = {.dir = vec3_normalize(r.dir)};
+    if (!accel_nearest(tracer->accel, &tracing->watch, r, 0.0, INFINITY, &sight.hit)) return false;
+    sight.surface = accel_surface(tracer->accel, r, &sight.hit);
+    const struct meeting m = {.surface = sight.surface,
+                              .outside = vec3_dot(sight.dir, sight.surface.normal) < 0.0};
+    sight.normal = shaded_normal(tracer, &m);
+    *out = sight;
+    return true;
+}
+
+uint64_t trace_lights(const struct tracer *tracer, const struct sight *sight, uint32_t count,
+                      struct tracing *tracing) {
+    const struct path path = {.tracer = tracer, .tracing = tracing};
+    const struct meeting m = {.surface = sight->surface};
+    uint64_t reaching = 0;
+    for (uint32_t i = 0; i < count && i < tracer->light_count; i++) {
+        const struct light *light = &tracer->lights[i];
+        const vec3 to_light = vec3_normalize(vec3_sub(light->at, sight->surface.point));
+        if (!(vec3_dot(sight->normal, to_light) > 0.0)) continue;
+        if (vec3_max_abs(light_reaching(&path, &m, to_light, light)) > 0.0) reaching |= (uint64_t)1 << i;
+    }
+    return reaching;
 }

@@ -25,4 +25,20 @@ struct tracing {
  * stopped. `media` is what its origin is inside of. */
 vec3 trace_ray(const struct tracer *tracer, ray r, const struct media *media, struct tracing *tracing);
 
+/* What a camera ray meets first. */
+struct sight {
+    struct hit hit;
+    struct surface surface;
+    vec3 normal; /* world space, unit, on the side that is shaded */
+    vec3 dir;    /* of the ray, unit */
+};
+
+/* False, with *out untouched, where the ray meets nothing. Its direction need not be unit. */
+bool trace_sight(const struct tracer *tracer, ray r, struct tracing *tracing, struct sight *out);
+
+/* Which of the first `count` lights, at most 64, reach it from the side that is shaded, in full or in part: a bit
+ * 1 << i for light i. Whatever the settings are. */
+uint64_t trace_lights(const struct tracer *tracer, const struct sight *sight, uint32_t count,
+                      struct tracing *tracing);
+
 #endif

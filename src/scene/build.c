@@ -40,6 +40,7 @@ void level_push(struct builder *b, struct level level) {
 
 void level_open(struct builder *b, const struct object_value *object, struct placed *placed) {
     const char *name = object_text(object, KEY_OBJECT_NAME);
+    const bool in_list = b->level->template == ORIGIN_NO_TEMPLATE;
     level_push(b, (struct level){.world_from_node = world_from_object(b, object),
                                  .material = material_of_object(b, object),
                                  .placed = placed,
@@ -47,6 +48,8 @@ void level_open(struct builder *b, const struct object_value *object, struct pla
                                  .own_span = object_span(object, KEY_OBJECT_MATERIAL),
                                  .count = b->set->primitives.count,
                                  .name = name ? name : b->level->name,
+                                 .object = place_object(b, object),
+                                 .named_in_list = b->level->named_in_list || (in_list && name),
                                  .template = object_has(object, KEY_OBJECT_USE) ? place_template(b, object)
                                                                                 : b->level->template});
 }
@@ -124,7 +127,9 @@ struct builder *scene_begin(struct arena *arena, struct diagnostics *diag, struc
     *scene = (struct scene){0};
     *b = (struct builder){.arena = arena, .diag = diag, .scene = scene, .default_material = NO_MATERIAL};
     b->set = arena_alloc(arena, sizeof *b->set);
-    level_push(b, (struct level){.world_from_node = AFFINE_IDENTITY, .template = ORIGIN_NO_TEMPLATE});
+    level_push(b, (struct level){.world_from_node = AFFINE_IDENTITY,
+                                 .template = ORIGIN_NO_TEMPLATE,
+                                 .object = ORIGIN_NO_OBJECT});
     *sink = (struct lang_sink){b, add_shape, open_group, close_group, open_use, close_use, mark, take_back};
     return b;
 }

@@ -13,6 +13,8 @@ struct level {
     struct placed *placed;          /* of a use whose objects are gathered; else NULL */
     const char *name;               /* the innermost around; NULL: none */
     uint32_t template;              /* the innermost around, or ORIGIN_NO_TEMPLATE */
+    uint32_t object;                /* that its members belong to, or ORIGIN_NO_OBJECT */
+    bool named_in_list;             /* `object` has a name outside of all templates: it stays */
     const struct object_value *own; /* material that was given here; NULL: none */
     struct span own_span;
     uint32_t count; /* of primitives in the set before it was opened */
@@ -35,7 +37,7 @@ struct builder {
     struct table placed, geometries, inline_materials; /* by their contents */
     uint32_t *named_materials, named_room;             /* index into the scene's materials by definition */
     uint32_t material_room, material_info_room, geometry_room, template_room;
-    uint32_t origin;           /* of what is placed now */
+    uint32_t origin, object;   /* of what is placed now */
     uint32_t default_material; /* its index once it is needed; else NO_MATERIAL */
     uint32_t *geometry_height, *geometry_weight, height_room,
         weight_room;   /* of each geometry, see instances.c */
@@ -86,8 +88,11 @@ void instance_add(struct builder *b, struct span span, affine world_from_object,
 
 /* ---- places.c: where things were written ---- */
 
-/* What is placed from now on comes from this object. */
+/* What is placed from now on comes from this object: a shape within the level, or the use that has opened it. */
 void place_origin(struct builder *b, const struct object_value *object);
+
+/* The index of the object that this one within the level is, or belongs to. */
+uint32_t place_object(struct builder *b, const struct object_value *object);
 
 /* The index of the template that is used, with its name in the scene. */
 uint32_t place_template(struct builder *b, const struct object_value *use);

@@ -91,7 +91,8 @@ enum lang_use instances_open(struct builder *b, const struct object_value *objec
     level_push(b, (struct level){.world_from_node = AFFINE_IDENTITY,
                                  .use = object,
                                  .placed = placed,
-                                 .template = b->level->template});
+                                 .template = b->level->template,
+                                 .object = ORIGIN_NO_OBJECT});
     open_set(b);
     return LANG_USE_READ;
 }

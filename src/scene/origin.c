@@ -37,16 +37,39 @@ static const char *keep_name(const struct origins *origins, struct arena *arena,
     return before && same_name(before->name, name) ? before->name : arena_text(arena, name, strlen(name));
 }
 
+static uint32_t *recent_of(uint32_t recent[ORIGINS_RECENT], struct span span) {
+    return &recent[(span.line * 31 + span.column) % ORIGINS_RECENT];
+}
+
 uint32_t origins_add(struct origins *origins, struct arena *arena, struct span span, struct origin origin) {
     origin.line = span.line;
     origin.column = span.column;
     origin.file = origins_file(origins, arena, span.source) & 0xffffff;
-    uint32_t *recent = &origins->recent[(origin.line * 31 + origin.column) % ORIGINS_RECENT];
+    uint32_t *recent = recent_of(origins->recent, span);
     if (*recent < origins->count && same_origin(&origins->list[*recent], &origin)) return *recent;
     origins->list = grow(arena, origins->list, origins->count, &origins->room, sizeof *origins->list);
     origin.name = keep_name(origins, arena, origin.name);
     origins->list[origins->count] = origin;
     return *recent = origins->count++;
+}
+
+uint32_t origins_add_object(struct origins *origins, struct arena *arena, struct span span, const char *name,
+                            const char *kind, const char *used) {
+    const uint32_t file = origins_file(origins, arena, span.source);
+    uint32_t *recent = recent_of(origins->recent_objects, span);
+    const struct object_place *there = *recent < origins->object_count ? &origins->objects[*recent] : NULL;
+    if (there && there->line == span.line && there->column == span.column && there->file == file &&
+        same_name(there->name, name))
+        return *recent;
+    origins->objects =
+        grow(arena, origins->objects, origins->object_count, &origins->object_room, sizeof *origins->objects);
+    origins->objects[origins->object_count] =
+        (struct object_place){.name = name ? arena_text(arena, name, strlen(name)) : NULL,
+                              .kind = used ? arena_format(arena, "%s %s", kind, used) : kind,
+                              .line = span.line,
+                              .column = span.column,
+                              .file = file};
+    return *recent = origins->object_count++;
 }
 
 void origins_keep(struct origins *origins, struct arena *arena) {

@@ -3,6 +3,20 @@
 
 #include "scene/builder.h"
 
+uint32_t place_object(struct builder *b, const struct object_value *object) {
+    const struct level *level = b->level;
+    const char *name = object_text(object, KEY_OBJECT_NAME);
+    const int key = object_alternative(object);
+    const bool in_list = level->template == ORIGIN_NO_TEMPLATE, is_use = key == KEY_OBJECT_USE;
+    const bool is_own =
+        name ? in_list || !level->named_in_list : is_use && in_list && level->object == ORIGIN_NO_OBJECT;
+    uint32_t number = 0;
+    if (!is_own || key < 0) return level->object;
+    return origins_add_object(&b->scene->origins, b->arena, object->span, name,
+                              is_use ? "use of" : object->kind->keys[key].name,
+                              is_use ? object_reference(object, key, &number) : NULL);
+}
+
 void place_origin(struct builder *b, const struct object_value *object) {
     const char *own = object_text(object, KEY_OBJECT_NAME);
     const struct object_value *shape = object_object(object, object_alternative(object));
@@ -10,6 +24,7 @@ void place_origin(struct builder *b, const struct object_value *object) {
     const struct origin origin = {
         .name = own ? own : b->level->name, .kind = (uint32_t)kind & 0xff, .template = b->level->template};
     b->origin = origins_add(&b->scene->origins, b->arena, object->span, origin);
+    b->object = shape ? place_object(b, object) : b->level->object;
 }
 
 uint32_t place_template(struct builder *b, const struct object_value *use) {

@@ -81,6 +81,7 @@ struct primitive_info {
     uint32_t
         material; /* index into the scene's materials, or a slot; of an instance not used: it has its own */
     uint32_t origin; /* index into the scene's origins: the object that it came from */
+    uint32_t object; /* index into its objects: what it belongs to; or ORIGIN_NO_OBJECT */
 };
 
 /* A material is an index into those of the scene; or, within a geometry, MATERIAL_SLOT with the number of a slot,

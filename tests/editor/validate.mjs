@@ -34,6 +34,8 @@ const EXCEPTIONS = {
     size_expression: "only the loader knows what an expression gives",
     text_long: "a word may be the name of a parameter",
     text_long_utf8: "a word may be the name of a parameter",
+    tolerance_nothing: "any one of the bounds will do",
+    tolerance_pixels: "pixels are a text with or without %",
 };
 
 function read(text) {
@@ -74,3 +76,12 @@ for (const file of yamlFiles("tests/errors").filter((file) => path.dirname(file)
         verdict(`${file} does not validate`, wrong !== null, `it has ${catchable.join(" ")}; if a schema cannot see that, it belongs to EXCEPTIONS`);
 }
 for (const name in EXCEPTIONS) verdict(`the exception ${name} is a scene`, fs.existsSync(`tests/errors/${name}.yaml`));
+
+// Settings of goldens: the same definitions by another door.
+const ajv = new Ajv({ strict: false });
+ajv.addSchema(JSON.parse(fs.readFileSync(process.argv[3], "utf8")), "scene.schema.json");
+const goldens = ajv.compile(JSON.parse(fs.readFileSync(path.join(path.dirname(process.argv[3]), "golden.schema.json"), "utf8")));
+const settings = read(fs.readFileSync("tests/golden/golden.yaml", "utf8"));
+verdict("tests/golden/golden.yaml validates", goldens(settings), goldens.errors?.[0]?.message);
+for (const wrong of [{ kidn: "png" }, { kind: "jpg" }, { rules: [{ options: "--samples 1" }] }, { rules: [{ scenes: "a", tolerance: { max: 0.1 } }] }])
+    verdict(`${JSON.stringify(wrong)} does not validate as settings of goldens`, !goldens(wrong));

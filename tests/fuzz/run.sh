@@ -10,7 +10,7 @@ find tests/errors scenes -name '*.yaml' | while read -r scene; do cp "$scene" "$
 
 sources="$(ls src/*.c src/[!c]*/*.c) $folder/build/gen/grammar_tables.c $folder/build/gen/grammar_schema.c $folder/build/gen/stories.c $folder/build/gen/program.c tests/fuzz/load.c"
 flags="-std=c17 -g -O1 -D_GNU_SOURCE -DMONGE_VERSION=\"fuzz\" -ffp-contract=off -Isrc -I$folder/build/gen -fno-sanitize-recover=all"
-libs="$(pkg-config --libs yaml-0.1 libpng sleef) -lpthread -lm"
+libs="$(pkg-config --libs yaml-0.1 libpng libdeflate sleef) -lpthread -lm"
 if clang $flags -fsanitize=fuzzer,address,undefined -o "$folder/fuzz" $sources $libs 2>"$folder/log"; then
     exec "$folder/fuzz" -max_total_time="$seconds" -max_len=4096 -timeout=10 -rss_limit_mb=2048 -artifact_prefix="$folder/" \
         -dict=tests/fuzz/yaml.dict "$folder/corpus" "$folder/seeds"

@@ -1,4 +1,6 @@
 /* Against long double functions, and exact where the exact answer is a double. */
+#include <string.h>
+
 #include "base/elementary.h"
 #include "near.h"
 
@@ -189,6 +191,26 @@ static void arctangent(void **state) {
     assert_true(elementary_atan_deg(0) == 0);
 }
 
+/* In single precision, near enough; and the same bits whether many are asked for at once or one. */
+static void powers_of_many(void **state) {
+    (void)state;
+    enum { COUNTED = 1003 };
+    static float base[COUNTED], exponent[COUNTED], many[COUNTED];
+    struct random r = random_begin();
+    for (int i = 0; i < COUNTED; i++) {
+        base[i] = i == 5 ? 0.0f : (float)random_between(&r, 0.0, i % 2 ? 1.0 : 100.0);
+        exponent[i] = (float)random_between(&r, 0.0, 1.0);
+    }
+    elementary_powf(COUNTED, base, exponent, many);
+    for (int i = 0; i < COUNTED; i++) {
+        float one;
+        elementary_powf(1, base + i, exponent + i, &one);
+        if (memcmp(&one, &many[i], sizeof one) != 0) fail_msg("%a ^ %a: %a or %a", base[i], exponent[i], one, many[i]);
+        const double want = elementary_pow((double)base[i], (double)exponent[i]);
+        assert_near((double)one, want, 1.2e-7 * want, "power");
+    }
+}
+
 int main(void) {
     struct CMUnitTest tests[COUNT(exacts)];
     for (size_t i = 0; i < COUNT(exacts); i++)
@@ -205,6 +227,7 @@ int main(void) {
         cmocka_unit_test(whole_powers_and_their_logarithms_are_exact),
         cmocka_unit_test(inverses),
         cmocka_unit_test(angles_of_whole_degrees),
+        cmocka_unit_test(powers_of_many),
     };
     return cmocka_run_group_tests_name("exact", tests, NULL, NULL) +
            cmocka_run_group_tests_name("elementary", others, NULL, NULL);

@@ -1,0 +1,204 @@
+#include "cli/accept.h"
+
+#include <fnmatch.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "cli/golden_folder.h"
+#include "cli/golden_results.h"
+#include "cli/golden_settings.h"
+#include "cli/golden_take.h"
+#include "cli/interrupt.h"
+#include "cli/say.h"
+
+/* The last run, and what is taken of it. */
+struct acceptance {
+    const struct arguments *args;
+    const char *folder, *output;
+    struct loader loader;
+    struct golden_settings settings;
+    struct golden_lock lock;
+    struct golden_results results;
+    size_t taken, removed, refused;
+    bool trouble;
+};
+
+/* ---- What is wanted ---- */
+
+static bool is_wanted(const struct acceptance *a, const char *name) {
+    for (size_t i = 0; i < a->args->count; i++)
+        if (fnmatch(a->args->operands[i], name, 0) == 0) return true;
+    return a->args->count == 0;
+}
+
+/* Each glob must have something to say of the run. */
+static bool check_globs(const struct acceptance *a) {
+    for (size_t i = 0; i < a->args->count; i++) {
+        size_t matches = 0;
+        for (size_t k = 0; k < a->results.count; k++)
+            matches += fnmatch(a->args->operands[i], a->results.cases[k].name, 0) == 0;
+        if (matches > 0) continue;
+        say_error("%s: no golden of the last run is called so", a->args->operands[i]);
+        return false;
+    }
+    return true;
+}
+
+/* ---- Inputs ---- */
+
+static bool text_has_changed(const struct acceptance *a, const struct golden_case *c,
+                             const struct monge_picture *picture, struct monge_diagnostics *diag) {
+    char now[MONGE_HASH_SIZE];
+    const char *files = monge_picture_text(picture, "monge:files");
+    return !monge_files_hash(c->scene, files ? files : "", &a->loader.limits.load, diag, now) ||
+           strcmp(now, c->now.text) != 0;
+}
+
+static bool options_have_changed(const struct acceptance *a, const struct golden_case *c) {
+    return strcmp(golden_settings_find(&a->settings, c->scene_name)->rule->options, c->rule_options) != 0;
+}
+
+/* Why the new picture cannot be taken; NULL: it can. */
+static const char *find_obstacle(const struct acceptance *a, const struct golden_case *c,
+                                 struct monge_diagnostics *diag) {
+    struct monge_picture *picture = monge_picture_read(c->new_path, diag);
+    const char *pixels = picture ? monge_picture_text(picture, "monge:pixels") : NULL, *why = NULL;
+    if (!picture)
+        why = "its new picture cannot be read any more";
+    else if (!pixels || strcmp(pixels, c->now.pixels) != 0)
+        why = "its new picture is not that of the run";
+    else if (strcmp(monge_program(), c->now.program) != 0)
+        why = "the program has changed since the run";
+    else if (text_has_changed(a, c, picture, diag))
+        why = "the scene has changed since the run";
+    else if (options_have_changed(a, c))
+        why = "its options in golden.yaml have changed since the run";
+    monge_picture_free(picture);
+    return why;
+}
+
+/* ---- Taking ---- */
+
+static void refuse(struct acceptance *a, const struct golden_case *c, const char *why) {
+    say_error("%s is left as it is: %s", c->name, why);
+    a->refused++;
+}
+
+static void take_case(struct acceptance *a, struct golden_case *c) {
+    struct monge_diagnostics *diag = monge_diagnostics_new();
+    const char *why = diag ? find_obstacle(a, c, diag) : "out of memory";
+    monge_diagnostics_free(diag);
+    if (why)
+        refuse(a, c, why);
+    else if (!golden_take(a->folder, &a->lock, c))
+        a->trouble = true;
+    else {
+        a->taken++;
+        if (!a->args->option[OPTION_QUIET].given) printf("took %s\n", c->name);
+    }
+}
+
+static bool scene_is_back(const struct acceptance *a, const char *name) {
+    bool back = false;
+    for (int i = 0; i < 2 && !back && a->settings.root; i++) {
+        char *path = golden_path(a->settings.root, name, i == 0 ? ".yaml" : ".yml");
+        back = golden_is_file(path);
+        free(path);
+    }
+    return back;
+}
+
+static void remove_orphan(struct acceptance *a, struct golden_case *c) {
+    free(c->golden_path);
+    c->golden_path = c->kind == MONGE_GOLDEN_HASH ? NULL : golden_path(a->folder, c->name, ".png");
+    if (scene_is_back(a, c->name))
+        refuse(a, c, "its scene is there again");
+    else if (!golden_forget(a->folder, &a->lock, c))
+        a->trouble = true;
+    else {
+        a->removed++;
+        if (!a->args->option[OPTION_QUIET].given) printf("removed %s\n", c->name);
+    }
+}
+
+static void settle_case(struct acceptance *a, struct golden_case *c) {
+    if (c->taken || !is_wanted(a, c->name)) return;
+    if (c->status == GOLDEN_ORPHAN && a->args->option[OPTION_PRUNE].given) remove_orphan(a, c);
+    if (golden_can_take(c) && c->scene && c->scene_name && c->rule_options) take_case(a, c);
+}
+
+/* The paths are made anew from the names, which must be fit for it: the document is a file like any other. */
+static bool prepare_cases(struct acceptance *a) {
+    char *folder = golden_path(a->output, "new", "");
+    bool good = true;
+    for (size_t i = 0; good && i < a->results.count; i++) {
+        struct golden_case *c = &a->results.cases[i];
+        good = golden_name_is_safe(c->name);
+        if (!good) say_error("%s/results.json: `%s` is no name of a golden", a->output, c->name);
+        if (!c->new_path) continue;
+        free(c->new_path);
+        c->new_path = golden_path(folder, c->name, ".png");
+    }
+    free(folder);
+    return good;
+}
+
+static enum status settle(struct acceptance *a) {
+    interrupt_defer();
+    for (size_t i = 0; i < a->results.count && !interrupt_pending(); i++)
+        settle_case(a, &a->results.cases[i]);
+    if (a->taken + a->removed > 0 && !golden_lock_write(&a->lock)) a->trouble = true;
+    interrupt_settle();
+    if (!a->args->option[OPTION_QUIET].given) {
+        printf("%zu taken", a->taken);
+        if (a->removed > 0) printf(", %zu removed", a->removed);
+        if (a->refused > 0) printf(", %zu left as they are", a->refused);
+        printf("\n");
+    }
+    return a->trouble ? STATUS_TROUBLE : a->refused > 0 ? STATUS_NO : STATUS_YES;
+}
+
+/* ---- All of it ---- */
+
+static bool is_same_folder(const char *a, const char *b) {
+    struct stat p, q;
+    return strcmp(a, b) == 0 ||
+           (stat(a, &p) == 0 && stat(b, &q) == 0 && p.st_dev == q.st_dev && p.st_ino == q.st_ino);
+}
+
+static bool read_run(struct acceptance *a) {
+    char *path = golden_path(a->output, "results.json", "");
+    bool good = golden_results_read(&a->results, path);
+    if (good && !a->results.folder) {
+        say_error("%s is not there: `monge test` makes it, with --output %s", path, a->output);
+        good = false;
+    } else if (good && !is_same_folder(a->results.folder, a->folder)) {
+        say_error("%s: the last run was with the goldens of %s", path, a->results.folder);
+        good = false;
+    }
+    free(path);
+    return good && prepare_cases(a);
+}
+
+static bool begin(struct acceptance *a) {
+    const struct option_value *option = a->args->option;
+    if (!option[OPTION_GOLDEN].given) {
+        say_usage(COMMAND_ACCEPT, "accept: --golden DIR is missing, the folder of the goldens");
+        return false;
+    }
+    a->folder = option[OPTION_GOLDEN].text;
+    a->output = option[OPTION_TEST_OUTPUT].given ? option[OPTION_TEST_OUTPUT].text : "monge-test";
+    return limits_read(a->args, &a->loader.limits) &&
+           golden_settings_read(&a->settings, a->folder, NULL, &a->loader) &&
+           golden_lock_read(&a->lock, a->folder) && read_run(a) && check_globs(a);
+}
+
+enum status accept_command(const struct arguments *args) {
+    struct acceptance a = {.args = args};
+    const enum status status = begin(&a) ? settle(&a) : STATUS_TROUBLE;
+    golden_results_free(&a.results);
+    golden_lock_free(&a.lock);
+    golden_settings_free(&a.settings);
+    return status;
+}

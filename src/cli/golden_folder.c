@@ -1,0 +1,161 @@
+#include "cli/golden_folder.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "cli/aov.h"
+#include "cli/say.h"
+
+/* ---- Names and paths ---- */
+
+bool golden_name_is_safe(const char *name) {
+    if (!*name) return false;
+    for (const char *part = name;; part++) {
+        const size_t length = strcspn(part, "/");
+        if (length == 0 || (length == 1 && *part == '.') || (length == 2 && strncmp(part, "..", 2) == 0))
+            return false;
+        part += length;
+        if (!*part) return true;
+    }
+}
+
+char *golden_path(const char *folder, const char *name, const char *extension) {
+    const size_t length = strlen(folder);
+    const char *slash = length > 0 && folder[length - 1] == '/' ? "" : "/";
+    return say_text("%s%s%s%s", folder, slash, name, extension);
+}
+
+bool golden_is_file(const char *path) {
+    struct stat status;
+    return stat(path, &status) == 0 && S_ISREG(status.st_mode);
+}
+
+/* ---- Writing ---- */
+
+bool golden_make_folders(const char *path) {
+    char *copy = say_text("%s", path);
+    bool good = true;
+    for (char *slash = strchr(copy + 1, '/'); good && slash; slash = strchr(slash + 1, '/')) {
+        struct stat status;
+        *slash = '\0';
+        good = mkdir(copy, 0777) == 0 ||
+               (errno == EEXIST && stat(copy, &status) == 0 && S_ISDIR(status.st_mode));
+        if (!good) say_error("cannot make the folder %s: %s", copy, strerror(errno));
+        *slash = '/';
+    }
+    free(copy);
+    return good;
+}
+
+bool golden_write(const char *path, const struct monge_text *text) {
+    struct monge_diagnostics *diag = monge_diagnostics_new();
+    const bool good = diag && golden_make_folders(path) && monge_text_write(path, text, diag);
+    if (diag && !good) monge_diagnostics_print(diag, say_stream());
+    monge_diagnostics_free(diag);
+    return good;
+}
+
+bool golden_copy(const char *from, const char *to) {
+    struct monge_diagnostics *diag = monge_diagnostics_new();
+    struct monge_text text = {NULL, 0};
+    const bool read = diag && monge_text_read(from, NULL, &text, diag);
+    if (diag && !read) monge_diagnostics_print(diag, say_stream());
+    const bool good = read && golden_write(to, &text);
+    monge_text_free(&text);
+    monge_diagnostics_free(diag);
+    return good;
+}
+
+bool golden_remove(const char *folder, const char *path) {
+    if (unlink(path) != 0) {
+        if (errno == ENOENT) return true;
+        say_error("cannot remove %s: %s", path, strerror(errno));
+        return false;
+    }
+    char *copy = say_text("%s", path);
+    for (char *slash; (slash = strrchr(copy, '/')) && (size_t)(slash - copy) > strlen(folder);) {
+        *slash = '\0';
+        if (rmdir(copy) != 0) break; /* something else is in it */
+    }
+    free(copy);
+    return true;
+}
+
+/* ---- What is there ---- */
+
+struct names {
+    char **all; /* up to a NULL */
+    size_t count;
+};
+
+static void add_name(struct names *names, const char *name) {
+    names->all = realloc(names->all, (names->count + 2) * sizeof *names->all);
+    if (!names->all) {
+        say_error("out of memory");
+        exit(STATUS_TROUBLE);
+    }
+    names->all[names->count++] = say_text("%s", name);
+    names->all[names->count] = NULL;
+}
+
+/* The length of the name of a picture, without its extension; 0: it is none. */
+static size_t picture_length(const char *file) {
+    const size_t length = strlen(file);
+    return length > 4 && strcmp(file + length - 4, ".png") == 0 ? length - 4 : 0;
+}
+
+/* Whether it is NAME.object.png or so, beside a NAME.png. */
+static bool is_layer(const char *path) {
+    for (enum monge_layer layer = 0; layer < MONGE_LAYERS; layer++) {
+        char *ending = aov_path(layer, ".png"); /* of no name: what all of them end in */
+        const size_t all = strlen(path), length = strlen(ending);
+        const bool ends = all > length && strcmp(path + all - length, ending) == 0;
+        char *picture = ends ? say_text("%.*s.png", (int)(all - length), path) : NULL;
+        const bool found = picture && golden_is_file(picture);
+        free(picture);
+        free(ending);
+        if (found) return true;
+    }
+    return false;
+}
+
+/* `below` is "" or ends in a slash. */
+static void walk(struct names *names, const char *folder, const char *below) {
+    char *path = golden_path(folder, below, "");
+    DIR *stream = opendir(path);
+    for (struct dirent *file; stream && (file = readdir(stream));) {
+        struct stat status;
+        char *full = say_text("%s%s", path, file->d_name), *name = say_text("%s%s", below, file->d_name);
+        if (file->d_name[0] != '.' && lstat(full, &status) == 0) {
+            char *inner = say_text("%s/", name);
+            if (S_ISDIR(status.st_mode)) walk(names, folder, inner);
+            free(inner);
+            name[picture_length(name)] = '\0';
+            if (!S_ISDIR(status.st_mode) && *name && !is_layer(full)) add_name(names, name);
+        }
+        free(full);
+        free(name);
+    }
+    if (stream) closedir(stream);
+    free(path);
+}
+
+static int compare_names(const void *a, const void *b) {
+    return strcmp(*(char *const *)a, *(char *const *)b);
+}
+
+char **golden_names(const char *folder) {
+    struct names names = {calloc(1, sizeof(char *)), 0};
+    walk(&names, folder, "");
+    if (names.count > 0) qsort(names.all, names.count, sizeof *names.all, compare_names);
+    return names.all;
+}
+
+void golden_names_free(char **names) {
+    for (char **name = names; name && *name; name++) free(*name);
+    free(names);
+}

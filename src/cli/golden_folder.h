@@ -1,0 +1,29 @@
+/* Folders of goldens and of runs: names of goldens as paths, and the pictures that are there. */
+#ifndef MONGE_CLI_GOLDEN_FOLDER_H
+#define MONGE_CLI_GOLDEN_FOLDER_H
+
+#include "cli/golden.h"
+
+/* Whether a name can be a path below a folder, and of nothing else: "gallery/chess", not "../x" or "/x". */
+bool golden_name_is_safe(const char *name);
+
+/* FOLDER/NAME and the extension, ".png". To be freed. */
+char *golden_path(const char *folder, const char *name, const char *extension);
+
+bool golden_is_file(const char *path);
+
+/* The file, complete or not at all, in folders that are made. False, with the reason told. */
+bool golden_write(const char *path, const struct monge_text *text);
+bool golden_make_folders(const char *path); /* that the file `path` needs */
+bool golden_copy(const char *from, const char *to);
+
+/* Removes a file, and those folders above it up to `folder` that have become empty. False, with the reason told;
+ * one that is not there is no trouble. */
+bool golden_remove(const char *folder, const char *path);
+
+/* The names of all pictures below a folder but for layers of others, sorted, up to a NULL; a folder that is not there has
+ * none. To be freed, with its texts. */
+char **golden_names(const char *folder);
+void golden_names_free(char **names);
+
+#endif

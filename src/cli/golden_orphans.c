@@ -1,0 +1,98 @@
+#include "cli/golden_orphans.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/golden_folder.h"
+#include "cli/say.h"
+
+/* Whether the golden could be of the scene: NAME, or NAME- and what frames and parameters add. */
+static bool could_be_of(const char *golden, const char *name, size_t length) {
+    return strncmp(golden, name, length) == 0 && (!golden[length] || golden[length] == '-');
+}
+
+static bool is_broken(const struct golden_scene *scene) {
+    for (size_t i = 0; i < scene->count; i++)
+        if (scene->cases[i].status == GOLDEN_BROKEN) return true;
+    return false;
+}
+
+static bool is_case(const struct golden_run *run, const char *golden) {
+    for (size_t i = 0; i < run->count; i++)
+        for (size_t k = 0; k < run->scenes[i].count; k++)
+            if (strcmp(run->scenes[i].cases[k].name, golden) == 0) return true;
+    return false;
+}
+
+/* The scene of the run whose name is the first `length` bytes; NULL: none. */
+static const struct golden_scene *scene_of(const struct golden_run *run, const char *name, size_t length) {
+    for (size_t i = 0; i < run->count; i++)
+        if (strncmp(run->scenes[i].name, name, length) == 0 && !run->scenes[i].name[length])
+            return &run->scenes[i];
+    return NULL;
+}
+
+static bool is_below_root(const struct golden_run *run, const char *name, size_t length) {
+    static const char *const extensions[] = {"yaml", "yml"};
+    bool there = false;
+    for (int i = 0; i < 2 && !there && run->settings.root; i++) {
+        char *path = say_text("%s/%.*s.%s", run->settings.root, (int)length, name, extensions[i]);
+        there = golden_is_file(path);
+        free(path);
+    }
+    return there;
+}
+
+/* Whether some scene that is still there may need it, though this run does not tell. */
+static bool may_be_needed(const struct golden_run *run, const char *golden) {
+    for (size_t length = 1; length <= strlen(golden); length++) {
+        if (!could_be_of(golden, golden, length)) continue;
+        const struct golden_scene *scene = scene_of(run, golden, length);
+        if (scene ? is_broken(scene) : is_below_root(run, golden, length)) return true;
+    }
+    return false;
+}
+
+static void add_orphan(struct golden_results *results, const char *name, enum monge_golden_kind kind,
+                       char *path) {
+    results->cases = realloc(results->cases, (results->count + 1) * sizeof *results->cases);
+    if (!results->cases) {
+        say_error("out of memory");
+        exit(STATUS_TROUBLE);
+    }
+    results->cases[results->count++] = (struct golden_case){
+        .name = say_text("%s", name), .kind = kind, .status = GOLDEN_ORPHAN, .golden_path = path};
+}
+
+static bool is_orphan(const struct golden_run *run, const char *golden) {
+    return !is_case(run, golden) && !may_be_needed(run, golden);
+}
+
+static void add_lines(const struct golden_run *run, struct golden_results *results) {
+    for (size_t i = 0; i < run->lock.count; i++) {
+        const char *name = run->lock.lines[i].name;
+        if (!is_orphan(run, name)) continue;
+        const bool picture = golden_settings_find(&run->settings, name)->rule->kind != MONGE_GOLDEN_HASH;
+        char *path = golden_path(run->folder, name, ".png");
+        const bool there = picture && golden_is_file(path);
+        add_orphan(results, name, there ? MONGE_GOLDEN_BOTH : MONGE_GOLDEN_HASH, there ? path : NULL);
+        if (!there) free(path);
+    }
+}
+
+/* Where goldens are hashes, pictures in their folder are for something else. */
+static void add_pictures(const struct golden_run *run, struct golden_results *results) {
+    char **names = golden_names(run->folder);
+    for (char **name = names; name && *name; name++) {
+        const bool picture = golden_settings_find(&run->settings, *name)->rule->kind != MONGE_GOLDEN_HASH;
+        if (picture && !golden_lock_find(&run->lock, *name) && is_orphan(run, *name))
+            add_orphan(results, *name, MONGE_GOLDEN_PNG, golden_path(run->folder, *name, ".png"));
+    }
+    golden_names_free(names);
+}
+
+void golden_find_orphans(const struct golden_run *run, bool all, struct golden_results *results) {
+    if (!all && !run->settings.root) return;
+    add_lines(run, results);
+    add_pictures(run, results);
+}

@@ -1,0 +1,30 @@
+/* The results of a run, as one JSON document: grammar/testing.md has its members. */
+#ifndef MONGE_CLI_GOLDEN_RESULTS_H
+#define MONGE_CLI_GOLDEN_RESULTS_H
+
+#include "cli/golden.h"
+
+struct golden_results {
+    char *folder; /* owned: of the goldens */
+    struct golden_case *cases;
+    size_t count;
+    double seconds;
+};
+
+size_t golden_count(const struct golden_results *results, enum golden_status status);
+
+/* "30 goldens: 27 same, 2 changed, 1 new". To be freed. */
+char *golden_summary(const struct golden_results *results);
+
+/* The document. To be freed; its end is a line break. */
+char *golden_results_text(const struct golden_results *results);
+
+/* Reads a document again: what accept and the next run need of it. False, with the reason told, where it is none;
+ * one that is not there gives no cases. To be freed either way. */
+bool golden_results_read(struct golden_results *results, const char *path);
+void golden_results_free(struct golden_results *results);
+
+const struct golden_case *golden_results_find(const struct golden_results *results,
+                                              const char *name); /* or NULL */
+
+#endif

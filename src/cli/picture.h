@@ -1,0 +1,30 @@
+/* A picture of a batch, and what has become of it. */
+#ifndef MONGE_CLI_PICTURE_H
+#define MONGE_CLI_PICTURE_H
+
+#include "monge.h"
+
+enum outcome { PICTURE_FAILED, PICTURE_RENDERED, PICTURE_UNCHANGED /* the file was right already */ };
+
+struct picture {
+    const char *scene; /* as the user knows it; "-" for the standard streams, here and in output */
+    char *output;      /* owned */
+    unsigned frame;    /* 0: --frames is not given */
+    const struct monge_define *defines;
+    size_t define_count;
+    enum outcome outcome;
+    /* Of a picture that was rendered: */
+    struct monge_settings settings;
+    struct monge_region region; /* what was rendered of it: the size of the file */
+    struct monge_stats stats;
+    size_t primitives;
+    double load_seconds, write_seconds;
+    uint64_t peak_memory_bytes;       /* of the process, until the picture was done */
+    char scene_hash[MONGE_HASH_SIZE]; /* of the evaluated scene and the settings */
+    char pixel_hash[MONGE_HASH_SIZE]; /* "" where nobody asked */
+};
+
+/* As a JSON object in one line; README.md has its members. */
+void picture_write_json(const struct picture *picture, FILE *out);
+
+#endif

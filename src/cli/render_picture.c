@@ -1,0 +1,160 @@
+#include "cli/render_picture.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "cli/aov.h"
+#include "cli/asked.h"
+#include "cli/checkpoint.h"
+#include "cli/clock.h"
+#include "cli/interrupt.h"
+#include "cli/say.h"
+#include "cli/stats.h"
+
+/* ---- What is rendered ---- */
+
+static enum status choose_settings(const struct unit *unit, const struct load *load,
+                                   struct picture *picture) {
+    const struct option_value *option = unit->work->args.option;
+    const char *scene = unit->output->scene;
+    picture->settings = monge_scene_settings(load->scene);
+    asked_settings(option, &picture->settings);
+    const char *wrong = monge_settings_check(&picture->settings);
+    if (wrong) say_error("%s: %s", scene, wrong);
+    if (wrong || !asked_region(&option[OPTION_REGION], scene, &picture->settings, &picture->region))
+        return STATUS_TROUBLE;
+    if (load_allows(&unit->work->loader, scene, &picture->settings)) return STATUS_YES;
+    return option[OPTION_SIZE].given ? STATUS_TROUBLE : STATUS_NO;
+}
+
+/* ---- The film ---- */
+
+/* "king", of an animation "king  frame 12 of 48". */
+static char *progress_title(const struct unit *unit, const struct load *load, unsigned frame) {
+    return frame ? say_text("%s  frame %u of %u", unit->output->name, frame, monge_scene_frames(load->scene))
+                 : say_text("%s", unit->output->name);
+}
+
+static struct checkpoint *open_checkpoint(const struct unit *unit, const struct load *load,
+                                          const struct picture *picture) {
+    struct stat there;
+    const struct monge_settings *s = &picture->settings;
+    const struct monge_region *r = &picture->region;
+    char scene[MONGE_HASH_SIZE];
+    const char *output = picture->output;
+    if (!work_wants(unit->work, OPTION_RESUME) || strcmp(output, "-") == 0 ||
+        (stat(output, &there) == 0 && !S_ISREG(there.st_mode)))
+        return NULL;
+    monge_scene_hash(load->scene, s, scene);
+    char *what = say_text("program %s\nscene %s\nregion %u,%u,%u,%u of %ux%u", monge_program(), scene, r->x,
+                          r->y, r->width, r->height, s->width, s->height);
+    struct checkpoint *checkpoint = checkpoint_open(output, what);
+    free(what);
+    return checkpoint;
+}
+
+/* *status is set where there is none: of a signal, memory, or what is wrong with the scene. */
+static struct monge_film *render_film(struct unit *unit, const struct load *load, struct picture *picture,
+                                      const struct checkpoint *checkpoint, enum status *status) {
+    const unsigned errors = monge_diagnostics_errors(load->diag);
+    const struct option_value *option = unit->work->args.option;
+    char *asked = asked_text(option, picture->defines, picture->define_count, picture->frame);
+    char *title = progress_title(unit, load, picture->frame);
+    const struct monge_job job = {.threads = option[OPTION_THREADS].number[0],
+                                  .progress = progress_update,
+                                  .context = &unit->progress,
+                                  .cancel = interrupt_flag(),
+                                  .diag = load->diag,
+                                  .tiles = checkpoint ? checkpoint_tiles(checkpoint) : NULL,
+                                  .options = asked};
+    progress_picture(&unit->progress, title);
+    struct monge_film *film =
+        monge_render(load->scene, &picture->settings, &picture->region, &job, &picture->stats);
+    progress_picture(&unit->progress, unit->output->name);
+    progress_hide(&unit->work->progress);
+    free(title);
+    free(asked);
+    if (film) return film;
+    const bool wrong = monge_diagnostics_errors(load->diag) != errors;
+    *status = wrong ? STATUS_NO : STATUS_TROUBLE;
+    if (!wrong && !interrupt_pending())
+        say_error("no memory for a picture of %ux%u", picture->region.width, picture->region.height);
+    return NULL;
+}
+
+static bool write_film(const struct monge_film *film, const char *path, struct report *report) {
+    struct monge_diagnostics *diag = report_open(report);
+    const bool written = diag && monge_film_write_png(film, path, diag);
+    if (diag) report_close(report, diag, !interrupt_pending());
+    return written;
+}
+
+/* The auxiliary passes, where there are to be any. */
+static bool write_passes(const struct unit *unit, const struct load *load, const struct picture *picture) {
+    const struct option_value *option = unit->work->args.option;
+    const struct monge_job job = {.threads = option[OPTION_THREADS].number[0], .cancel = interrupt_flag()};
+    return !option[OPTION_AOV].given ||
+           aov_write(load->scene, &picture->settings, &picture->region, option[OPTION_AOV].set, &job,
+                     picture->output, &unit->work->loader.report);
+}
+
+/* ---- The picture ---- */
+
+static void tell_resumed(const struct unit *unit, const struct picture *picture,
+                         const struct checkpoint *checkpoint) {
+    const uint64_t known = checkpoint ? checkpoint_pixels(checkpoint) : 0;
+    const double all = (double)picture->region.width * picture->region.height;
+    if (known > 0 && !work_wants(unit->work, OPTION_QUIET))
+        say_note("resumed %s  %.0f%% was done", picture->output, 100.0 * (double)known / all);
+}
+
+static void note_hashes(const struct unit *unit, const struct monge_film *film, struct picture *picture) {
+    if (!unit->work->log.path) return;
+    monge_film_scene_hash(film, picture->scene_hash);
+    if (!monge_film_hash(film, picture->pixel_hash)) *picture->pixel_hash = '\0';
+}
+
+/* Everything after loading. A signal in here ends the program once nothing is half done. */
+static enum status render_scene(struct unit *unit, const struct load *load, struct picture *picture) {
+    enum status status = choose_settings(unit, load, picture);
+    if (status != STATUS_YES) return status;
+    interrupt_defer();
+    struct checkpoint *checkpoint = open_checkpoint(unit, load, picture);
+    tell_resumed(unit, picture, checkpoint);
+    struct monge_film *film = render_film(unit, load, picture, checkpoint, &status);
+    report_show(&unit->work->loader.report, load->diag);
+    const double rendered = clock_seconds();
+    if (film && write_film(film, picture->output, &unit->work->loader.report) &&
+        write_passes(unit, load, picture))
+        picture->outcome = PICTURE_RENDERED;
+    else if (film)
+        status = STATUS_TROUBLE;
+    picture->write_seconds = clock_seconds() - rendered;
+    picture->peak_memory_bytes = stats_peak_memory();
+    if (film) note_hashes(unit, film, picture);
+    checkpoint_close(checkpoint, picture->outcome == PICTURE_RENDERED);
+    monge_film_free(film);
+    interrupt_settle();
+    return status;
+}
+
+enum status render_picture(struct unit *unit, struct load *load, double begun) {
+    struct picture *picture = &unit->pictures[unit->count - 1];
+    const double loaded = clock_seconds();
+    const bool built = monge_scene_prepare(load->scene); /* here a signal may still end the program at once */
+    const double prepared = clock_seconds();
+    if (!built)
+        say_error("%s: no memory for %zu primitives", unit->output->scene,
+                  monge_scene_primitives(load->scene));
+    if (built) load_examine(&unit->work->loader, load);
+    const enum status status = built ? render_scene(unit, load, picture) : STATUS_TROUBLE;
+    picture->primitives = monge_scene_primitives(load->scene);
+    picture->load_seconds = loaded - begun;
+    picture->stats.build_seconds += prepared - loaded;
+    if (picture->outcome == PICTURE_RENDERED && !work_wants(unit->work, OPTION_QUIET))
+        say_note("wrote %s  %ux%u  %.2f s",
+                 strcmp(picture->output, "-") == 0 ? "standard output" : picture->output,
+                 picture->region.width, picture->region.height, clock_seconds() - begun);
+    return status;
+}

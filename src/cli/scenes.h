@@ -1,0 +1,41 @@
+/* From the operands of a command to scenes:
+ *
+ *     king.yaml       a file; it need not be there: reading it tells
+ *     scenes/         a folder: all *.yaml and *.yml below it that are scenes, sorted by name; what is hidden, and
+ *                     links to folders, are passed by
+ *     'k[1-3]*.yaml'  a pattern that the shell has left alone; `**` in it, as the name of a folder, stands for any
+ *                     folders, or none
+ *     @list, @-       a file, or standard input, with one of these a line; # begins a comment
+ *     -               standard input: a list where each line is a path, else a scene
+ */
+#ifndef MONGE_CLI_SCENES_H
+#define MONGE_CLI_SCENES_H
+
+#include "cli/options.h"
+#include "cli/report.h"
+#include "monge.h"
+
+struct scene_file {
+    char *path; /* owned; "-": the scene on standard input */
+    char *
+        name; /* owned: the file name without .yaml or .yml; of what is below a folder that was asked for, with
+                   the folders between, as "gallery/chess"; "stdin" */
+};
+
+struct scenes {
+    struct scene_file *all; /* in the order of the operands */
+    size_t count;
+    struct monge_text input; /* the scene on standard input; without bytes where there is none */
+    enum status status;      /* STATUS_TROUBLE: some operand stands for nothing; the reason has been told */
+};
+
+/* What is taken of the files below folders. */
+enum scenes_wish { SCENES_ALONE, SCENES_AND_DEFINITIONS };
+
+/* Finds them all, with what is wrong told to the report, to stderr where it is not about files. limits may be
+ * NULL. To be freed. */
+void scenes_find(struct scenes *scenes, const struct arguments *args, enum scenes_wish wish,
+                 const struct monge_limits *limits, struct report *report);
+void scenes_free(struct scenes *scenes);
+
+#endif

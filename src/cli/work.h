@@ -1,0 +1,36 @@
+/* A run of `monge render`: what its parts share. */
+#ifndef MONGE_CLI_WORK_H
+#define MONGE_CLI_WORK_H
+
+#include "cli/load.h"
+#include "cli/log.h"
+#include "cli/outputs.h"
+#include "cli/progress.h"
+
+/* An output and what it has become: one load of a scene, and its pictures one after another on one thread. */
+struct unit {
+    struct work *work;
+    const struct output *output;
+    struct picture *pictures; /* those tried so far; a scene that cannot be loaded counts as one */
+    size_t count;
+    struct progress_unit progress;
+    enum status status;
+};
+
+struct work {
+    struct arguments args;
+    struct loader loader;
+    struct plan plan;
+    struct progress progress;
+    struct log log;
+    struct unit *units; /* one for each output of the plan */
+    size_t begun;       /* so many of them */
+    size_t outcomes[3]; /* pictures, by theirs */
+    enum status worst;
+};
+
+static inline bool work_wants(const struct work *work, enum option_id option) {
+    return work->args.option[option].given;
+}
+
+#endif

@@ -1,0 +1,216 @@
+/* The metrics that look at each pixel by itself. All sums are of integers: exact, in whatever order. */
+#include <math.h>
+#include <stdatomic.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/elementary.h"
+#include "base/parallel.h"
+#include "image/compare.h"
+
+enum {
+    BLOCK = 16 /* pixels that are looked at together */,
+    BAND = 16 /* rows that a thread takes at a time */
+};
+
+/* How both pictures are read: with as many channels and bits as the one that has more. */
+struct layout {
+    unsigned colors, channels; /* colors: 1 or 3; channels: with alpha */
+    unsigned bits;
+    bool same; /* that is how they are */
+};
+
+static struct layout common_layout(const struct monge_picture *a, const struct monge_picture *b) {
+    const bool color = a->channels >= 3 || b->channels >= 3;
+    const bool alpha = a->channels % 2 == 0 || b->channels % 2 == 0;
+    const unsigned colors = color ? 3 : 1, bits = a->bits > b->bits ? a->bits : b->bits;
+    return (struct layout){colors, colors + alpha, bits, a->bits == b->bits && a->channels == b->channels};
+}
+
+static unsigned max_code(const struct layout *layout) { return (1u << layout->bits) - 1; }
+
+static inline unsigned read_number(const uint8_t *at, unsigned bits) {
+    return bits == 16 ? (unsigned)at[0] << 8 | at[1] : at[0];
+}
+
+/* A pixel in that layout; 8 bits become 16 by v * 257, which keeps 0 and 1. */
+static void read_pixel(const struct monge_picture *picture, const uint8_t *at, const struct layout *layout,
+                       uint16_t *out) {
+    const unsigned colors = picture->channels >= 3 ? 3 : 1, bits = picture->bits, bytes = bits / 8;
+    const unsigned scale = layout->bits > bits ? 257 : 1;
+    const bool alpha = picture->channels > colors;
+    for (unsigned c = 0; c < layout->colors; c++)
+        *out++ = (uint16_t)(scale * read_number(at + (c < colors ? c * bytes : 0), bits));
+    if (layout->channels > layout->colors)
+        *out = (uint16_t)(alpha ? scale * read_number(at + colors * bytes, bits) : max_code(layout));
+}
+
+/* What a thread has found. */
+struct tally {
+    uint64_t different, beyond, sum, squares;
+    unsigned max;
+    uint32_t max_x, max_y, left, top, right, bottom; /* right and bottom within */
+};
+
+struct job {
+    const struct comparison *comparison;
+    struct layout layout;
+    unsigned limit; /* what differs by more is beyond */
+    atomic_uint next;
+    struct tally tallies[PARALLEL_MAX_THREADS];
+};
+
+static bool is_before(uint32_t x, uint32_t y, uint32_t than_x, uint32_t than_y) {
+    return y < than_y || (y == than_y && x < than_x);
+}
+
+#define INLINE static inline __attribute__((always_inline))
+
+/* Pixels come row by row, each from left to right. */
+INLINE void count_pixel(struct tally *t, unsigned largest, unsigned limit, uint32_t x, uint32_t y) {
+    if (t->different++ == 0) t->left = t->right = x, t->top = y;
+    t->beyond += largest > limit;
+    t->left = x < t->left ? x : t->left;
+    t->right = x > t->right ? x : t->right;
+    t->bottom = y;
+    if (largest > t->max) t->max = largest, t->max_x = x, t->max_y = y;
+}
+
+/* A pixel of both, as that many numbers. */
+INLINE void count_numbers(const struct job *job, struct tally *t, uint32_t x, uint32_t y, const uint16_t *a,
+                          const uint16_t *b, unsigned channels) {
+    unsigned largest = 0;
+    for (unsigned c = 0; c < channels; c++) {
+        const unsigned difference = (unsigned)abs(a[c] - b[c]);
+        t->sum += difference;
+        t->squares += (uint64_t)difference * difference;
+        largest = difference > largest ? difference : largest;
+    }
+    if (largest > 0) count_pixel(t, largest, job->limit, x, y);
+}
+
+/* A row of pictures of one layout: most of the pixels are equal, byte by byte. channels and bits are known to the
+ * compiler, for those that are common. */
+INLINE void count_alike(const struct job *job, struct tally *t, uint32_t y, unsigned channels,
+                        unsigned bits) {
+    const uint32_t width = job->comparison->a->width;
+    const size_t bytes = bits / 8, size = channels * bytes;
+    const uint8_t *a = picture_row(job->comparison->a, y), *b = picture_row(job->comparison->b, y);
+    const uint8_t *ignored = comparison_ignored(job->comparison, y);
+    for (uint32_t begin = 0; begin < width; begin += BLOCK) {
+        const uint32_t end = width - begin < BLOCK ? width : begin + BLOCK;
+        if (memcmp(a + begin * size, b + begin * size, (end - begin) * size) == 0) continue;
+        for (uint32_t x = begin; x < end; x++) {
+            const uint8_t *at_a = a + x * size, *at_b = b + x * size;
+            uint16_t of_a[4], of_b[4];
+            if (memcmp(at_a, at_b, size) == 0 || (ignored && ignored[x])) continue;
+            for (unsigned c = 0; c < channels; c++) {
+                of_a[c] = (uint16_t)read_number(at_a + c * bytes, bits);
+                of_b[c] = (uint16_t)read_number(at_b + c * bytes, bits);
+            }
+            count_numbers(job, t, x, y, of_a, of_b, channels);
+        }
+    }
+}
+
+/* A row of any others. */
+static void count_unlike(const struct job *job, struct tally *t, uint32_t y) {
+    const struct monge_picture *a = job->comparison->a, *b = job->comparison->b;
+    const uint8_t *ignored = comparison_ignored(job->comparison, y);
+    for (uint32_t x = 0; x < a->width; x++) {
+        uint16_t of_a[4], of_b[4];
+        if (ignored && ignored[x]) continue;
+        read_pixel(a, picture_row(a, y) + x * picture_pixel_size(a), &job->layout, of_a);
+        read_pixel(b, picture_row(b, y) + x * picture_pixel_size(b), &job->layout, of_b);
+        count_numbers(job, t, x, y, of_a, of_b, job->layout.channels);
+    }
+}
+
+static void count_row(const struct job *job, struct tally *t, uint32_t y) {
+    const unsigned channels = job->layout.channels, bits = job->layout.bits;
+    if (!job->layout.same)
+        count_unlike(job, t, y);
+    else if (bits == 8 && channels == 3)
+        count_alike(job, t, y, 3, 8);
+    else if (bits == 8 && channels == 4)
+        count_alike(job, t, y, 4, 8);
+    else if (bits == 16 && channels == 3)
+        count_alike(job, t, y, 3, 16);
+    else
+        count_alike(job, t, y, channels, bits);
+}
+
+static void count_bands(void *context, unsigned thread) {
+    struct job *job = context;
+    struct tally t = {0};
+    const uint32_t height = job->comparison->a->height;
+    for (uint64_t band; (band = (uint64_t)BAND * atomic_fetch_add(&job->next, 1)) < height;)
+        for (uint32_t y = (uint32_t)band; y < height && y < band + BAND; y++) count_row(job, &t, y);
+    job->tallies[thread] = t;
+}
+
+static void merge(struct tally *into, const struct tally *t) {
+    if (t->different == 0) return;
+    const struct tally was = *into;
+    *into = *t;
+    if (was.different == 0) return;
+    into->different += was.different;
+    into->beyond += was.beyond;
+    into->sum += was.sum;
+    into->squares += was.squares;
+    if (was.left < into->left) into->left = was.left;
+    if (was.top < into->top) into->top = was.top;
+    if (was.right > into->right) into->right = was.right;
+    if (was.bottom > into->bottom) into->bottom = was.bottom;
+    if (was.max > into->max || (was.max == into->max && is_before(was.max_x, was.max_y, t->max_x, t->max_y)))
+        into->max = was.max, into->max_x = was.max_x, into->max_y = was.max_y;
+}
+
+/* The largest whole number of `max` that is no more than max_delta. Divided, as a number in a scene or on the
+ * command line is: 51 / 255 is the same double as 0.2. */
+static unsigned limit_of(double max_delta, unsigned max) {
+    unsigned limit = max_delta > 0.0 ? (unsigned)(fmin(max_delta, 1.0) * max) : 0;
+    while (limit < max && (limit + 1) / (double)max <= max_delta) limit++;
+    while (limit > 0 && limit / (double)max > max_delta) limit--;
+    return limit;
+}
+
+static void tell(const struct tally *t, uint64_t pixels, const struct layout *layout,
+                 struct monge_difference *out) {
+    const double max = max_code(layout);
+    const double numbers = pixels > 0 ? (double)(pixels * layout->channels) : 1.0;
+    out->pixels = pixels;
+    out->different = t->different;
+    out->beyond = t->beyond;
+    out->max = t->max / max;
+    out->max_x = t->max_x;
+    out->max_y = t->max_y;
+    out->mae = (double)t->sum / numbers / max;
+    out->rmse = sqrt((double)t->squares / numbers) / max;
+    out->psnr = t->squares > 0 ? -20.0 * elementary_log10(out->rmse) : INFINITY;
+    if (t->different > 0)
+        out->bounds = (struct monge_region){t->left, t->top, t->right - t->left + 1, t->bottom - t->top + 1};
+}
+
+void compare_pixels(const struct comparison *comparison, double max_delta, struct monge_difference *out) {
+    struct job job = {.comparison = comparison, .layout = common_layout(comparison->a, comparison->b)};
+    job.limit = limit_of(max_delta, max_code(&job.layout));
+    parallel_run(comparison->threads, count_bands, &job);
+    for (unsigned i = 1; i < comparison->threads; i++) merge(&job.tallies[0], &job.tallies[i]);
+    tell(&job.tallies[0], comparison->pixels, &job.layout, out);
+}
+
+void compare_row(const struct comparison *comparison, uint32_t y, float *largest) {
+    const struct monge_picture *a = comparison->a, *b = comparison->b;
+    const struct layout layout = common_layout(a, b);
+    const uint8_t *ignored = comparison_ignored(comparison, y);
+    for (uint32_t x = 0; x < a->width; x++) {
+        uint16_t of_a[4], of_b[4];
+        int worst = 0;
+        read_pixel(a, picture_row(a, y) + x * picture_pixel_size(a), &layout, of_a);
+        read_pixel(b, picture_row(b, y) + x * picture_pixel_size(b), &layout, of_b);
+        for (unsigned c = 0; c < layout.channels; c++)
+            if (abs(of_a[c] - of_b[c]) > worst) worst = abs(of_a[c] - of_b[c]);
+        largest[x] = ignored && ignored[x] ? 0.0f : (float)worst / (float)max_code(&layout);
+    }
+}

@@ -1,0 +1,248 @@
+#include "image/layers_file.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "image/layer_table.h"
+#include "image/pfm.h"
+#include "image/picture.h"
+#include "image/samples.h"
+
+/* ---- Names ---- */
+
+static const char *const layer_names[MONGE_LAYERS] = {"object", "material", "depth", "normal", "shadow"};
+
+const char *monge_layer_name(enum monge_layer layer) { return layer_names[layer]; }
+
+size_t monge_layer_path(enum monge_layer layer, const char *picture, char *path, size_t size) {
+    const size_t length = strlen(picture);
+    const bool is_png = length > 4 && strcasecmp(picture + length - 4, ".png") == 0;
+    return (size_t)snprintf(path, size, "%.*s.%s.%s", (int)(is_png ? length - 4 : length), picture,
+                            layer_names[layer], layer == MONGE_LAYER_DEPTH ? "pfm" : "png");
+}
+
+/* ---- Numbers and their channels ---- */
+
+/* How many bits the numbers of a layer have, in every region of the picture. */
+static unsigned bits_of(const struct monge_layers *layers, enum monge_layer layer) {
+    if (layer == MONGE_LAYER_SHADOW)
+        return layers->light_count < MONGE_LAYER_LIGHTS ? layers->light_count : MONGE_LAYER_LIGHTS;
+    return layers->entries[layer].highest > UINT16_MAX ? 32 : 16;
+}
+
+static uint64_t number_at(const struct monge_layers *layers, enum monge_layer layer, size_t i) {
+    return layer == MONGE_LAYER_SHADOW ? layers->lights[i] : layers->ids[layer][i];
+}
+
+static void set_number(struct monge_layers *layers, enum monge_layer layer, size_t i, uint64_t number) {
+    if (layer == MONGE_LAYER_SHADOW)
+        layers->lights[i] = number;
+    else
+        layers->ids[layer][i] = (uint32_t)number;
+}
+
+/* ---- Writing ---- */
+
+static bool write_samples(const struct monge_layers *layers, const char *path, struct samples *samples,
+                          char *message, size_t size) {
+    const struct monge_region r = layers->region;
+    char software[] = "Monge " MONGE_VERSION, software_key[] = "Software", region_key[] = "monge:region";
+    char scene_key[] = "monge:scene", scene[HASH_TEXT_SIZE], region[80];
+    samples->width = r.width;
+    samples->height = r.height;
+    samples->texts[samples->text_count++] = (struct samples_text){software_key, software};
+    memcpy(scene, layers->scene, sizeof scene);
+    if (*scene) samples->texts[samples->text_count++] = (struct samples_text){scene_key, scene};
+    snprintf(region, sizeof region, "%u,%u,%u,%u of %ux%u", r.x, r.y, r.width, r.height, layers->width,
+             layers->height);
+    if (r.width != layers->width || r.height != layers->height)
+        samples->texts[samples->text_count++] = (struct samples_text){region_key, region};
+    return samples_write(path, samples, message, size);
+}
+
+static bool write_normals(const struct monge_layers *layers, const char *path, char *message, size_t size) {
+    struct samples samples = {.channels = 3, .values = layers->normals};
+    return write_samples(layers, path, &samples, message, size);
+}
+
+static bool write_numbers(const struct monge_layers *layers, enum monge_layer layer, const char *path,
+                          char *message, size_t size) {
+    const size_t pixels = layers_pixels(layers);
+    const bool has_table = layer != MONGE_LAYER_SHADOW;
+    char key[] = "monge:table", *table = has_table ? layer_table_text(&layers->entries[layer]) : NULL;
+    struct samples samples = {.channels = bits_of(layers, layer) > 16 ? 3 : 1};
+    samples.values = malloc(pixels * samples.channels * sizeof *samples.values);
+    bool good = samples.values && (table || !has_table);
+    if (!good) snprintf(message, size, "cannot write %s: out of memory", path);
+    for (size_t i = 0; good && i < pixels; i++)
+        for (unsigned c = 0; c < samples.channels; c++)
+            samples.values[samples.channels * i + c] = (uint16_t)(number_at(layers, layer, i) >> (16 * c));
+    if (has_table) samples.texts[samples.text_count++] = (struct samples_text){key, table};
+    good = good && write_samples(layers, path, &samples, message, size);
+    free(samples.values);
+    free(table);
+    return good;
+}
+
+bool layer_file_write(const struct monge_layers *layers, enum monge_layer layer, const char *path,
+                      char *message, size_t size) {
+    if (layer == MONGE_LAYER_NORMAL) return write_normals(layers, path, message, size);
+    if (layer != MONGE_LAYER_DEPTH) return write_numbers(layers, layer, path, message, size);
+    return pfm_write(path, layers->region.width, layers->region.height, layers->depth, message, size);
+}
+
+/* ---- Reading ---- */
+
+/* Layers that are read one after another; the first tells the size. */
+struct reading {
+    struct monge_layers *layers; /* NULL: none yet */
+    char *message;
+    size_t size;
+};
+
+static bool fail(const struct reading *reading, const char *path, const char *reason) {
+    snprintf(reading->message, reading->size, "cannot read %s: %s", path, reason);
+    return false;
+}
+
+/* Makes room for a layer of this region. */
+static bool add_layer(struct reading *reading, enum monge_layer layer, const char *path, uint32_t width,
+                      uint32_t height) {
+    const struct monge_region region = {0, 0, width, height};
+    if (!reading->layers) reading->layers = layers_new(width, height, region, 0);
+    struct monge_layers *layers = reading->layers;
+    if (!layers) return fail(reading, path, "out of memory");
+    if (layers->region.width != width || layers->region.height != height)
+        return fail(reading, path, "it has not the size of the other layers");
+    return layers_add(layers, layer) || fail(reading, path, "out of memory");
+}
+
+/* Whether the layer is of the same picture as those before it. */
+static bool take_scene(struct monge_layers *layers, const char *scene) {
+    if (!scene) return true;
+    if (*layers->scene) return strcmp(layers->scene, scene) == 0;
+    snprintf(layers->scene, sizeof layers->scene, "%s", scene);
+    return true;
+}
+
+/* Where the pixels are in the whole picture. */
+static void read_region(struct monge_layers *layers, const char *text) {
+    struct monge_region r;
+    uint32_t width, height;
+    if (!text || sscanf(text, "%u,%u,%u,%u of %ux%u", &r.x, &r.y, &r.width, &r.height, &width, &height) != 6)
+        return;
+    if (r.width != layers->region.width || r.height != layers->region.height) return;
+    layers->region = r;
+    layers->width = width;
+    layers->height = height;
+}
+
+static bool read_table(struct monge_layers *layers, enum monge_layer layer, const char *text) {
+    jmp_buf full;
+    layers->arena.on_full = &full;
+    const bool good = setjmp(full) == 0 && layer_table_read(text, &layers->arena, &layers->entries[layer]);
+    layers->arena.on_full = NULL;
+    return good;
+}
+
+static unsigned sample_at(const struct monge_picture *picture, uint32_t y, size_t i) {
+    const uint8_t *at = picture_row(picture, y) + 2 * i;
+    return (unsigned)at[0] << 8 | at[1];
+}
+
+static void take_normals(uint16_t *normals, const struct monge_picture *picture) {
+    for (uint32_t y = 0; y < picture->height; y++)
+        for (size_t i = 0; i < 3 * (size_t)picture->width; i++)
+            *normals++ = (uint16_t)sample_at(picture, y, i);
+}
+
+static void take_numbers(struct monge_layers *layers, enum monge_layer layer,
+                         const struct monge_picture *picture) {
+    const unsigned channels = picture->channels;
+    size_t at = 0;
+    for (uint32_t y = 0; y < picture->height; y++)
+        for (size_t x = 0; x < picture->width; x++) {
+            uint64_t number = 0;
+            for (unsigned c = 0; c < channels; c++)
+                number |= (uint64_t)sample_at(picture, y, channels * x + c) << (16 * c);
+            set_number(layers, layer, at++, number);
+        }
+}
+
+static const char *text_of(const struct monge_picture *picture, const char *key) {
+    for (size_t i = 0; i < picture->text_count; i++)
+        if (strcmp(picture->texts[i].key, key) == 0) return picture->texts[i].text;
+    return NULL;
+}
+
+static bool take_picture(struct reading *reading, enum monge_layer layer, const char *path,
+                         const struct monge_picture *picture) {
+    const char *table = text_of(picture, "monge:table");
+    if (picture->bits != 16 || (picture->channels != 1 && picture->channels != 3))
+        return fail(reading, path, "a layer has 16 bits, grey or RGB");
+    if (layer == MONGE_LAYER_NORMAL && picture->channels != 3)
+        return fail(reading, path, "normals have three channels");
+    if (!add_layer(reading, layer, path, picture->width, picture->height)) return false;
+    struct monge_layers *layers = reading->layers;
+    if (!take_scene(layers, text_of(picture, "monge:scene")))
+        return fail(reading, path, "it is of another rendering than the other layers");
+    read_region(layers, text_of(picture, "monge:region"));
+    if (layer == MONGE_LAYER_NORMAL) {
+        take_normals(layers->normals, picture);
+        return true;
+    }
+    take_numbers(layers, layer, picture);
+    if (layer == MONGE_LAYER_SHADOW) {
+        layers->light_count = 16 * picture->channels;
+        return true;
+    }
+    return (table && read_table(layers, layer, table)) ||
+           fail(reading, path, "it has no table of what its numbers stand for");
+}
+
+static bool read_picture(struct reading *reading, enum monge_layer layer, const char *path) {
+    struct monge_picture picture = {.name = NULL};
+    char reason[PICTURE_REASON_SIZE] = "";
+    bool system;
+    const bool good = picture_open(&picture, path, reason, &system) && picture_decode(&picture, reason)
+                          ? take_picture(reading, layer, path, &picture)
+                          : fail(reading, path, reason);
+    picture_close(&picture);
+    return good;
+}
+
+static bool read_depth(struct reading *reading, const char *path) {
+    uint32_t width, height;
+    float *values;
+    if (!pfm_read(path, MONGE_MAX_PIXELS, &width, &height, &values, reading->message, reading->size))
+        return false;
+    const bool good = add_layer(reading, MONGE_LAYER_DEPTH, path, width, height);
+    if (good) memcpy(reading->layers->depth, values, layers_pixels(reading->layers) * sizeof *values);
+    free(values);
+    return good;
+}
+
+static bool read_layer(struct reading *reading, enum monge_layer layer, const char *picture) {
+    const size_t length = monge_layer_path(layer, picture, NULL, 0) + 1;
+    char *path = malloc(length);
+    if (!path) return fail(reading, picture, "out of memory");
+    monge_layer_path(layer, picture, path, length);
+    const bool there = access(path, F_OK) == 0;
+    const bool good = !there || (layer == MONGE_LAYER_DEPTH ? read_depth(reading, path)
+                                                            : read_picture(reading, layer, path));
+    free(path);
+    return good;
+}
+
+struct monge_layers *layer_files_read(const char *picture, unsigned wanted, char *message, size_t size) {
+    struct reading reading = {.message = message, .size = size};
+    *message = '\0';
+    for (enum monge_layer layer = 0; layer < MONGE_LAYERS; layer++) {
+        if (!(wanted >> layer & 1) || read_layer(&reading, layer, picture)) continue;
+        monge_layers_free(reading.layers);
+        return NULL;
+    }
+    return reading.layers;
+}

@@ -1,0 +1,315 @@
+#include "image/picture.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <libdeflate.h>
+#include <png.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/* What a file may take: pictures as large as can be rendered have less. */
+#define MAX_FILE ((size_t)4 << 30)
+enum { MAX_CHUNK_MEMORY = 1 << 23, MAX_CHUNKS_KEPT = 128, CHUNK_FRAME = 12 /* length, type, check sum */ };
+
+static bool fail(char reason[PICTURE_REASON_SIZE], const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+
+static bool fail(char reason[PICTURE_REASON_SIZE], const char *format, ...) {
+    va_list args;
+    va_start(args, format);
+    vsnprintf(reason, PICTURE_REASON_SIZE, format, args);
+    va_end(args);
+    return false;
+}
+
+/* ---- The file ---- */
+
+/* Reads on until the end, from where `size` bytes have been read. */
+static bool read_stream(int fd, size_t room, uint8_t **bytes, size_t *size) {
+    *size = 0;
+    for (;;) {
+        uint8_t *larger = *size < room ? *bytes : realloc(*bytes, room *= 2);
+        if (!larger) return false;
+        *bytes = larger;
+        const ssize_t count = read(fd, *bytes + *size, room - *size);
+        if (count == 0) return true;
+        if (count < 0 && errno == EINTR) continue;
+        if (count < 0) return false;
+        *size += (size_t)count;
+        errno = EFBIG;
+        if (*size > MAX_FILE) return false;
+    }
+}
+
+static bool read_descriptor(int fd, uint8_t **bytes, size_t *size) {
+    struct stat status;
+    if (fstat(fd, &status) != 0) return false;
+    errno = EISDIR;
+    if (S_ISDIR(status.st_mode)) return false;
+    errno = EFBIG;
+    if (status.st_size > (off_t)MAX_FILE) return false;
+    const size_t room = S_ISREG(status.st_mode) ? (size_t)status.st_size + 1 : 1 << 16;
+    *bytes = malloc(room);
+    return *bytes && read_stream(fd, room, bytes, size);
+}
+
+static bool read_file(struct monge_picture *picture, const char *path, char reason[PICTURE_REASON_SIZE]) {
+    const bool standard = strcmp(path, "-") == 0;
+    const int fd = standard ? STDIN_FILENO : open(path, O_RDONLY | O_CLOEXEC);
+    const bool good = fd >= 0 && read_descriptor(fd, &picture->file, &picture->file_size);
+    const int why = errno;
+    if (fd >= 0 && !standard) close(fd);
+    return good || fail(reason, "%s", strerror(why));
+}
+
+/* ---- Chunks: PNG specification, chapter 5 ---- */
+
+static uint32_t read_big(const uint8_t *at) {
+    return (uint32_t)at[0] << 24 | (uint32_t)at[1] << 16 | (uint32_t)at[2] << 8 | at[3];
+}
+
+static bool chunk_is(const uint8_t *chunk, const char *type) { return memcmp(chunk + 4, type, 4) == 0; }
+
+/* Checks one chunk, of which `left` bytes are there. */
+static bool check_chunk(const uint8_t *chunk, size_t left, char reason[PICTURE_REASON_SIZE]) {
+    if (left < CHUNK_FRAME) return fail(reason, "the file is cut off");
+    for (int i = 4; i < 8; i++)
+        if (!((chunk[i] | 32) >= 'a' && (chunk[i] | 32) <= 'z')) return fail(reason, "it is damaged");
+    const uint32_t size = read_big(chunk);
+    if (size > left - CHUNK_FRAME) return fail(reason, "the file is cut off");
+    if (libdeflate_crc32(0, chunk + 4, size + 4) == read_big(chunk + 8 + size)) return true;
+    return fail(reason, "it is damaged: the check sum of its chunk %.4s is wrong", (const char *)chunk + 4);
+}
+
+static bool check_chunks(struct monge_picture *picture, char reason[PICTURE_REASON_SIZE]) {
+    struct picture_data *data = &picture->data;
+    if (picture->file_size < 8 || png_sig_cmp(picture->file, 0, 8) != 0)
+        return fail(reason, picture->file_size ? "it is no PNG file" : "the file is empty");
+    for (size_t at = 8;; at += read_big(picture->file + at) + CHUNK_FRAME) {
+        const uint8_t *chunk = picture->file + at;
+        if (!check_chunk(chunk, picture->file_size - at, reason)) return false;
+        if (chunk_is(chunk, "IDAT")) {
+            if (data->last && data->last != at)
+                return fail(reason, "it is damaged: its pixels are in pieces");
+            if (!data->last) data->first = at;
+            data->bytes += read_big(chunk);
+            data->last = at + read_big(chunk) + CHUNK_FRAME;
+        } else if (chunk_is(chunk, "IEND")) {
+            data->end = at;
+            return data->last || fail(reason, "it has no pixels");
+        }
+    }
+}
+
+/* ---- Reading by libpng, from memory ---- */
+
+/* A stretch of bytes, and what follows. */
+struct stretch {
+    const uint8_t *at, *end;
+};
+
+/* Everything that libpng's longjmp must not lose lives here. */
+struct reader {
+    png_structp png;
+    png_infop info;
+    struct stretch *stretch, *last; /* what is to be read, in this order */
+    char *reason;
+};
+
+static void on_error(png_structp png, png_const_charp text) {
+    struct reader *r = png_get_error_ptr(png);
+    fail(r->reason, "it is damaged: %s", text);
+    png_longjmp(png, 1);
+}
+
+static void on_warning(png_structp png, png_const_charp text) { (void)png, (void)text; }
+
+static void on_read(png_structp png, png_bytep bytes, size_t size) {
+    struct reader *r = png_get_io_ptr(png);
+    while (size > 0) {
+        while (r->stretch < r->last && r->stretch->at == r->stretch->end) r->stretch++;
+        if (r->stretch == r->last) png_error(png, "it ends too early");
+        const size_t there = (size_t)(r->stretch->end - r->stretch->at), count = there < size ? there : size;
+        memcpy(bytes, r->stretch->at, count);
+        r->stretch->at += count;
+        bytes += count;
+        size -= count;
+    }
+}
+
+/* Begins to read. The check sums are known to be right. */
+static bool reader_begin(struct reader *r) {
+    r->png = png_create_read_struct(PNG_LIBPNG_VER_STRING, r, on_error, on_warning);
+    if (r->png) r->info = png_create_info_struct(r->png);
+    if (!r->info) return fail(r->reason, "%s", strerror(ENOMEM));
+    png_set_read_fn(r->png, r, on_read);
+    png_set_crc_action(r->png, PNG_CRC_QUIET_USE, PNG_CRC_QUIET_USE);
+    png_set_chunk_malloc_max(r->png, MAX_CHUNK_MEMORY);
+    png_set_chunk_cache_max(r->png, MAX_CHUNKS_KEPT);
+    return true;
+}
+
+static void reader_end(struct reader *r) { png_destroy_read_struct(&r->png, &r->info, NULL); }
+
+/* ---- The header ---- */
+
+static bool take_size(struct monge_picture *picture, struct reader *r) {
+    const int type = png_get_color_type(r->png, r->info), bits = png_get_bit_depth(r->png, r->info);
+    const bool keyed = png_get_valid(r->png, r->info, PNG_INFO_tRNS);
+    const bool alpha = type & PNG_COLOR_MASK_ALPHA || keyed;
+    picture->width = png_get_image_width(r->png, r->info);
+    picture->height = png_get_image_height(r->png, r->info);
+    picture->bits = bits == 16 ? 16 : 8;
+    picture->channels = (type & PNG_COLOR_MASK_COLOR ? 3u : 1u) + alpha;
+    picture->plain = bits >= 8 && type != PNG_COLOR_TYPE_PALETTE && !keyed &&
+                     png_get_interlace_type(r->png, r->info) == PNG_INTERLACE_NONE;
+    if ((uint64_t)picture->width * picture->height <= MONGE_MAX_PIXELS) return true;
+    return fail(r->reason, "it is too large: %u x %u pixels", picture->width, picture->height);
+}
+
+static bool take_profile(struct color_space *space, struct reader *r) {
+    png_charp name;
+    png_bytep profile;
+    png_uint_32 size;
+    int compression;
+    if (!png_get_iCCP(r->png, r->info, &name, &compression, &profile, &size)) return true;
+    space->kind = COLOR_PROFILE;
+    space->profile_size = size;
+    snprintf(space->name, sizeof space->name, "ICC profile %.79s", name);
+    space->profile = malloc(size);
+    if (!space->profile) return fail(r->reason, "%s", strerror(ENOMEM));
+    memcpy(space->profile, profile, size);
+    return true;
+}
+
+static bool take_primaries(int32_t xy[8], struct reader *r) {
+    return png_get_cHRM_fixed(r->png, r->info, &xy[0], &xy[1], &xy[2], &xy[3], &xy[4], &xy[5], &xy[6],
+                              &xy[7]);
+}
+
+/* What programs write beside an sRGB chunk, or for want of one: PNG specification, 11.3.2.5. */
+static bool is_like_srgb(const struct color_space *space, bool has_primaries) {
+    static const int32_t usual[8] = {31270, 32900, 64000, 33000, 30000, 60000, 15000, 6000};
+    bool like = abs(space->gamma - 45455) <= 50;
+    for (int i = 0; has_primaries && i < 8; i++) like = like && abs(space->primaries[i] - usual[i]) <= 50;
+    return like;
+}
+
+static bool take_space(struct color_space *space, struct reader *r) {
+    int intent;
+    snprintf(space->name, sizeof space->name, "sRGB");
+    if (!png_get_sRGB(r->png, r->info, &intent) && png_get_gAMA_fixed(r->png, r->info, &space->gamma) &&
+        space->gamma > 0 && !is_like_srgb(space, take_primaries(space->primaries, r))) {
+        space->kind = COLOR_GAMMA;
+        snprintf(space->name, sizeof space->name, "gamma %.5g", space->gamma / 100000.0);
+    }
+    return take_profile(space, r);
+}
+
+static bool take_texts(struct monge_picture *picture, struct reader *r) {
+    png_textp texts;
+    const int count = png_get_text(r->png, r->info, &texts, NULL);
+    if (count <= 0) return true;
+    picture->texts = calloc((size_t)count, sizeof *picture->texts);
+    for (int i = 0; picture->texts && i < count; i++) {
+        const char *key = texts[i].key, *text = texts[i].text ? texts[i].text : "";
+        struct picture_text *to = &picture->texts[i];
+        to->key = malloc(strlen(key) + strlen(text) + 2);
+        if (!to->key) break;
+        to->text = stpcpy(to->key, key) + 1;
+        strcpy(to->text, text);
+        picture->text_count++;
+    }
+    return picture->text_count == (size_t)count || fail(r->reason, "%s", strerror(ENOMEM));
+}
+
+/* The texts behind the pixels: room for them, and how many there are. */
+static size_t find_texts(const struct monge_picture *picture, struct stretch *found, size_t room) {
+    size_t count = 0;
+    for (size_t at = picture->data.last; at < picture->data.end && count < room;) {
+        const uint8_t *chunk = picture->file + at;
+        const size_t size = read_big(chunk) + (size_t)CHUNK_FRAME;
+        if (chunk_is(chunk, "tEXt") || chunk_is(chunk, "zTXt") || chunk_is(chunk, "iTXt"))
+            found[count++] = (struct stretch){chunk, chunk + size};
+        at += size;
+    }
+    return count;
+}
+
+static bool read_header_by(struct reader *r, struct monge_picture *picture) {
+    if (setjmp(png_jmpbuf(r->png))) return false;
+    png_read_info(r->png, r->info); /* up to the length and type of the first IDAT */
+    return take_size(picture, r) && take_space(&picture->space, r) && take_texts(picture, r);
+}
+
+/* Lets libpng read all chunks but those of the pixels: the texts that stand behind them go before. */
+static bool read_header(struct monge_picture *picture, char reason[PICTURE_REASON_SIZE]) {
+    const uint8_t *file = picture->file, *data = file + picture->data.first;
+    struct stretch stretches[MAX_CHUNKS_KEPT + 2] = {{file, data}};
+    const size_t texts = find_texts(picture, stretches + 1, MAX_CHUNKS_KEPT);
+    stretches[1 + texts] = (struct stretch){data, data + 8};
+    struct reader r = {.stretch = stretches, .last = stretches + texts + 2, .reason = reason};
+    const bool good = reader_begin(&r) && read_header_by(&r, picture);
+    reader_end(&r);
+    return good;
+}
+
+bool picture_open(struct monge_picture *picture, const char *path, char reason[PICTURE_REASON_SIZE],
+                  bool *system) {
+    picture->name = strdup(path);
+    *system = !picture->name || !read_file(picture, path, reason);
+    if (!picture->name) return fail(reason, "%s", strerror(ENOMEM));
+    return !*system && check_chunks(picture, reason) && read_header(picture, reason);
+}
+
+void picture_close(struct monge_picture *picture) {
+    for (size_t i = 0; i < picture->text_count; i++) free(picture->texts[i].key);
+    free(picture->texts);
+    free(picture->space.profile);
+    free(picture->memory);
+    free(picture->file);
+    free(picture->name);
+}
+
+/* ---- Pixels, by libpng ---- */
+
+static bool read_rows(struct reader *r, struct monge_picture *picture) {
+    if (setjmp(png_jmpbuf(r->png))) return false;
+    png_read_info(r->png, r->info);
+    png_set_expand(r->png);
+    const int passes = png_set_interlace_handling(r->png);
+    png_read_update_info(r->png, r->info);
+    if (png_get_rowbytes(r->png, r->info) != picture->stride)
+        png_error(r->png, "its rows are of another size");
+    for (int pass = 0; pass < passes; pass++)
+        for (uint32_t y = 0; y < picture->height; y++)
+            png_read_row(r->png, picture->rows + y * picture->stride, NULL);
+    png_read_end(r->png, NULL);
+    return true;
+}
+
+/* Whether the data can be of that many pixels, of a bit at least: before memory is taken for them. */
+static bool has_data(const struct monge_picture *picture) {
+    return (uint64_t)picture->width * picture->height / 8 / DEFLATE_MAX_RATIO <= picture->data.bytes;
+}
+
+bool picture_decode(struct monge_picture *picture, char reason[PICTURE_REASON_SIZE]) {
+    if (picture->memory) return true;
+    if (!has_data(picture)) return fail(reason, "it is damaged: it has too few pixels");
+    picture_decode_plain(picture);
+    if (picture->memory) return true;
+    struct stretch all = {picture->file, picture->file + picture->file_size};
+    struct reader r = {.stretch = &all, .last = &all + 1, .reason = reason};
+    picture->stride = picture->width * picture_pixel_size(picture);
+    picture->rows = picture->memory = calloc(picture->height, picture->stride);
+    if (!picture->memory) return fail(reason, "%s", strerror(ENOMEM));
+    const bool good = reader_begin(&r) && read_rows(&r, picture);
+    reader_end(&r);
+    if (good) return true;
+    free(picture->memory);
+    picture->memory = NULL;
+    return false;
+}

@@ -1,0 +1,72 @@
+/* PNG files in memory: their chunks, and their pixels once they are wanted. */
+#ifndef MONGE_IMAGE_PICTURE_H
+#define MONGE_IMAGE_PICTURE_H
+
+#include "monge.h"
+
+/* What the numbers in a file mean. */
+struct color_space {
+    enum { COLOR_SRGB, COLOR_GAMMA, COLOR_PROFILE } kind;
+    int32_t gamma;        /* of COLOR_GAMMA: light = number ^ (100000 / gamma) */
+    int32_t primaries[8]; /* of COLOR_GAMMA: x, y of white, red, green, blue times 100000; all 0: not said */
+    uint8_t *profile;     /* of COLOR_PROFILE; owned */
+    size_t profile_size;
+    char name[96];
+};
+
+struct picture_text {
+    char *key, *text; /* one piece of memory, of key */
+};
+
+/* Where the compressed pixels are in the file. */
+struct picture_data {
+    size_t first, last; /* of the IDAT chunks: where the first begins and the last ends */
+    size_t end;         /* where IEND begins */
+    size_t bytes;       /* in all of them together */
+};
+
+struct monge_picture {
+    char *name; /* of the file, for messages */
+    uint8_t *file;
+    size_t file_size;
+    struct picture_data data;
+    uint32_t width, height;
+    unsigned bits, channels; /* as decoded: 8 or 16, 1 to 4 */
+    bool plain;              /* rows are in the file as they are decoded, but for compression and filters */
+    struct color_space space;
+    struct picture_text *texts;
+    size_t text_count;
+    uint8_t *memory; /* NULL: not decoded */
+    uint8_t *rows;   /* in `memory` */
+    size_t stride;   /* bytes from one row to the next */
+};
+
+enum { PICTURE_REASON_SIZE = 200 };
+
+/* No stream of DEFLATE becomes more than this many times as long: 258 bytes take two bits. */
+#define DEFLATE_MAX_RATIO 1032
+
+/* Reads the file and checks its chunks. *picture is zeroed. False, with the reason: no PNG, or damaged; or, where
+ * *system becomes true, the file cannot be read. Either way to be freed. */
+bool picture_open(struct monge_picture *picture, const char *path, char reason[PICTURE_REASON_SIZE],
+                  bool *system);
+void picture_close(struct monge_picture *picture);
+
+/* Decodes the pixels where that has not been done. False, with the reason, when they are damaged, or there is no
+ * memory for them. */
+bool picture_decode(struct monge_picture *picture, char reason[PICTURE_REASON_SIZE]);
+
+/* The same for the rows of a plain picture, by libdeflate: several times as fast as libpng's way, and giving up
+ * wherever something is out of the ordinary. picture->memory stays NULL when it fails. */
+void picture_decode_plain(struct monge_picture *picture);
+
+static inline const uint8_t *picture_row(const struct monge_picture *picture, uint32_t y) {
+    return picture->rows + y * picture->stride;
+}
+
+/* Bytes of a pixel. */
+static inline size_t picture_pixel_size(const struct monge_picture *picture) {
+    return picture->channels * (picture->bits / 8);
+}
+
+#endif

@@ -1,0 +1,195 @@
+/* The fast way to the pixels of most pictures. */
+#include <libdeflate.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include "image/picture.h"
+
+enum { FILTER_NONE, FILTER_SUB, FILTER_UP, FILTER_AVERAGE, FILTER_PAETH };
+
+/* ---- Filters of rows: PNG specification, chapter 9 ---- */
+
+/* Vectors of the compilers, which all machines have: a pixel is at most 8 bytes, and its bytes are added at once. What
+ * is in them beyond the pixel is of no use and does no harm. */
+typedef uint8_t bytes __attribute__((vector_size(8)));
+typedef int16_t words __attribute__((vector_size(16)));
+enum { ROOM = 8 /* bytes that may be read beyond the last pixel */ };
+
+#define INLINE static inline __attribute__((always_inline))
+
+INLINE bytes load(const uint8_t *at) {
+    bytes pixel;
+    memcpy(&pixel, at, sizeof pixel);
+    return pixel;
+}
+
+/* The first `step` of them, a number that is known to the compiler. By way of a number, not of the stack. */
+INLINE void store(uint8_t *at, bytes pixel, size_t step) {
+    const uint64_t all = (uint64_t)pixel;
+    const size_t odd = step % 4 == 3 ? 2 : step == 6 ? 4 : step; /* 3 is 2 and 1, 6 is 4 and 2 */
+    memcpy(at, &all, odd);
+    const uint64_t rest = all >> (8 * odd % 64);
+    if (step > odd) memcpy(at + odd, &rest, step - odd);
+}
+
+static void add_above(uint8_t *row, const uint8_t *above, size_t size) {
+    size_t i = 0;
+    for (; i + 8 <= size; i += 8) store(row + i, load(row + i) + load(above + i), 8);
+    for (; i < size; i++) row[i] = (uint8_t)(row[i] + above[i]);
+}
+
+INLINE void add_left(uint8_t *row, size_t size, size_t step) {
+    bytes left = {0};
+    for (size_t i = 0; i < size; i += step) {
+        left += load(row + i);
+        store(row + i, left, step);
+    }
+}
+
+INLINE void add_average(uint8_t *row, const uint8_t *above, size_t size, size_t step) {
+    bytes left = {0};
+    for (size_t i = 0; i < size; i += step) {
+        const bytes up = load(above + i);
+        const uint64_t half = (uint64_t)(left ^ up) >> 1 & 0x7f7f7f7f7f7f7f7f;
+        left = load(row + i) + ((left & up) + (bytes)half); /* half of the sum, without its ninth bit */
+        store(row + i, left, step);
+    }
+}
+
+INLINE words absolute(words v) {
+    const words sign = v >> 15;
+    return (v ^ sign) - sign;
+}
+
+INLINE void add_paeth(uint8_t *row, const uint8_t *above, size_t size, size_t step) {
+    words left = {0}, corner = {0};
+    for (size_t i = 0; i < size; i += step) {
+        const words up = __builtin_convertvector(load(above + i), words);
+        const words rise = up - corner, to_left = absolute(rise);
+        const words run = left - corner, to_up = absolute(run), to_corner = absolute(run + rise);
+        const words is_left = (to_left <= to_up) & (to_left <= to_corner), is_up = to_up <= to_corner;
+        const words other = (up & is_up) | (corner & ~is_up);
+        const words raw = __builtin_convertvector(load(row + i), words);
+        left = (raw + ((left & is_left) | (other & ~is_left))) & 255;
+        store(row + i, __builtin_convertvector(left, bytes), step);
+        corner = up;
+    }
+}
+
+INLINE bool undo_filter(uint8_t *row, const uint8_t *above, size_t size, size_t step) {
+    switch (row[-1]) {
+    case FILTER_NONE: return true;
+    case FILTER_SUB: add_left(row, size, step); return true;
+    case FILTER_UP: add_above(row, above, size); return true;
+    case FILTER_AVERAGE: add_average(row, above, size, step); return true;
+    case FILTER_PAETH: add_paeth(row, above, size, step); return true;
+    }
+    return false;
+}
+
+/* Of all rows in their place. `above` is a row of zeros, what is above the first. */
+INLINE bool undo_all(uint8_t *rows, const uint8_t *above, size_t stride, uint32_t height, size_t step) {
+    for (uint32_t y = 0; y < height; y++) {
+        uint8_t *row = rows + y * stride;
+        if (!undo_filter(row, above, stride - 1, step)) return false;
+        above = row;
+    }
+    return true;
+}
+
+INLINE bool undo_by_step(uint8_t *rows, const uint8_t *above, size_t stride, uint32_t height, size_t step) {
+    switch (step) {
+    case 1: return undo_all(rows, above, stride, height, 1);
+    case 2: return undo_all(rows, above, stride, height, 2);
+    case 3: return undo_all(rows, above, stride, height, 3);
+    case 4: return undo_all(rows, above, stride, height, 4);
+    case 6: return undo_all(rows, above, stride, height, 6);
+    case 8: return undo_all(rows, above, stride, height, 8);
+    }
+    return false;
+}
+
+static bool undo_plain(uint8_t *rows, const uint8_t *above, size_t stride, uint32_t height, size_t step) {
+    return undo_by_step(rows, above, stride, height, step);
+}
+
+/* The same once more for machines with more instructions: half as long. */
+#if defined __x86_64__
+__attribute__((target("avx2"))) static bool undo_avx2(uint8_t *rows, const uint8_t *above, size_t stride,
+                                                      uint32_t height, size_t step) {
+    return undo_by_step(rows, above, stride, height, step);
+}
+#endif
+
+static bool undo_filters(uint8_t *rows, size_t stride, uint32_t height, size_t step) {
+    bool (*undo)(uint8_t *, const uint8_t *, size_t, uint32_t, size_t) = undo_plain;
+    uint8_t *zero = calloc(1, stride + ROOM);
+#if defined __x86_64__
+    if (__builtin_cpu_supports("avx2")) undo = undo_avx2;
+#endif
+    const bool good = zero && undo(rows, zero, stride, height, step);
+    free(zero);
+    return good;
+}
+
+/* ---- The compressed data ---- */
+
+static uint32_t read_big(const uint8_t *at) {
+    return (uint32_t)at[0] << 24 | (uint32_t)at[1] << 16 | (uint32_t)at[2] << 8 | at[3];
+}
+
+/* What the IDAT chunks have, in one piece; *owned is to be freed. NULL: no memory. */
+static const uint8_t *join_data(const struct monge_picture *picture, uint8_t **owned) {
+    const uint8_t *chunk = picture->file + picture->data.first;
+    *owned = NULL;
+    if (read_big(chunk) == picture->data.bytes) return chunk + 8; /* the rest of them is empty */
+    uint8_t *to = *owned = malloc(picture->data.bytes);
+    while (to && chunk < picture->file + picture->data.last) {
+        const size_t size = read_big(chunk);
+        memcpy(to, chunk + 8, size);
+        to += size;
+        chunk += size + 12;
+    }
+    return *owned;
+}
+
+static bool inflate_rows(const struct monge_picture *picture, uint8_t *out, size_t size) {
+    uint8_t *owned;
+    size_t made = 0;
+    const uint8_t *data = join_data(picture, &owned);
+    struct libdeflate_decompressor *inflater = data ? libdeflate_alloc_decompressor() : NULL;
+    const bool good = inflater && libdeflate_zlib_decompress(inflater, data, picture->data.bytes, out, size,
+                                                             &made) == LIBDEFLATE_SUCCESS;
+    libdeflate_free_decompressor(inflater);
+    free(owned);
+    return good && made == size;
+}
+
+/* All at once: one by one, as they are written to, the system takes as long as the inflater. */
+static void fetch_pages(uint8_t *memory, size_t size) {
+#ifdef MADV_POPULATE_WRITE
+    const size_t page = (size_t)sysconf(_SC_PAGESIZE), before = -(uintptr_t)memory % page;
+    if (size > (1 << 20)) madvise(memory + before, (size - before) / page * page, MADV_POPULATE_WRITE);
+#else
+    (void)memory, (void)size;
+#endif
+}
+
+void picture_decode_plain(struct monge_picture *picture) {
+    const size_t step = picture_pixel_size(picture);
+    const size_t stride = 1 + picture->width * step; /* a row has the number of its filter before it */
+    const size_t size = stride * picture->height;
+    if (!picture->plain || size / DEFLATE_MAX_RATIO > picture->data.bytes) return;
+    uint8_t *memory = malloc(size + ROOM);
+    if (memory) fetch_pages(memory, size);
+    if (memory && inflate_rows(picture, memory, size) &&
+        undo_filters(memory + 1, stride, picture->height, step)) {
+        picture->memory = memory;
+        picture->rows = memory + 1;
+        picture->stride = stride;
+    } else {
+        free(memory);
+    }
+}

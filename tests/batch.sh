@@ -1,0 +1,291 @@
+#!/usr/bin/env bash
+# Tests of batches: scenes by folders, patterns and lists, several at once, --log, --progress json, --skip-unchanged,
+# --resume, and what can go wrong: tests/batch.sh [PROGRAM], build/monge by default. Works in a folder of its own. What
+# needs a tool or a right that is not here (python3, mounts) is left out, and told.
+
+monge=$(realpath "${1:-build/monge}")
+[ -x "$monge" ] || { echo "batch: no program $monge" >&2; exit 1; }
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 1
+unset COLUMNS
+
+passed=0 failed=0
+
+run() {
+    last=$*
+    "$monge" "$@" >out 2>err </dev/null
+    status=$?
+}
+
+# ok NAME COMMAND...: a test that passes when the command succeeds.
+ok() {
+    local name=$1
+    shift
+    if "$@" >/dev/null 2>said; then
+        passed=$((passed + 1))
+    else
+        failed=$((failed + 1))
+        echo "FAILED: $name"
+        echo "    failed: $*; after: monge $last; exit $status; stderr:"
+        sed 's/^/    | /' err said
+    fi
+}
+
+# exits STATUS ARGS...: runs monge; a test of its exit status.
+exits() {
+    local want=$1
+    shift
+    run "$@"
+    ok "exit $want: monge $*" [ "$status" -eq "$want" ]
+}
+
+err_has() { ok "stderr has \`$1\`" grep -qF -e "$1" err; }
+err_lacks() { ok "stderr lacks \`$1\`" sh -c '! grep -qF -e "$1" err' sh "$1"; }
+no_err() { ok "nothing on stderr" [ ! -s err ]; }
+out_is() { ok "stdout is $(tr '\n' '|' <<<"$1")" [ "$(cat out)" = "$1" ]; }
+there() { for f in "$@"; do ok "$f is there" [ -s "$f" ]; done; }
+missing() { for f in "$@"; do ok "$f is not there" [ ! -e "$f" ]; done; }
+same() { ok "$1 is $2" cmp "$1" "$2"; }
+no_leftovers() { ok "nothing is left over" [ -z "$(find . -name '*.tmp' -o -name '*.partial')" ]; }
+have() { command -v "$1" >/dev/null; }
+left_out() { echo "batch: left out: $1"; }
+
+small=(--size 16x12)
+
+# ---- Scenes: folders, patterns, lists ----
+
+mkdir -p s/inner/deep s/.hidden
+for f in s/a s/inner/b s/inner/deep/c s/.hidden/h; do echo 'scene: [{sphere: {}}]' >$f.yaml; done
+mv s/inner/b.yaml s/inner/b.yml
+ln -s .. s/inner/loop
+printf 'params: {r: 1}\n' >s/defs.yaml
+printf 'jobs: {build: {}}\n' >s/ci.yml
+printf '{"scene": [{"sphere": {}}]}' >s/json.yaml
+echo text >s/README.md
+all=$(printf 's/%s: ok\n' a.yaml inner/b.yml inner/deep/c.yaml json.yaml)
+
+exits 0 check s; out_is "$all"; err_has '2 files without a `scene` are left out'
+exits 0 check -q s; no_err
+exits 0 check 's/**'; out_is "$all"
+exits 0 check 's/**/[bc].y*ml'; out_is "$(printf 's/inner/%s: ok\n' b.yml deep/c.yaml)"
+exits 0 check 's/*/*.yml'; out_is 's/inner/b.yml: ok'
+exits 0 check "$work/s/inn*/d*/*.yaml"; out_is "$work/s/inner/deep/c.yaml: ok"
+exits 0 info s/inner; ok "info of a folder" [ "$(grep -c '^s/inner/' out)" -eq 2 ]
+exits 1 check s/defs.yaml; err_has 'needs the key `scene`'
+exits 2 check 'x*.yaml' s/a.yaml; err_has 'x*.yaml: no file matches'; out_is 's/a.yaml: ok'
+mkdir empty; exits 2 check empty; err_has 'empty: there is no scene in this folder'
+touch 'q[1].yaml'; exits 1 check 'q[1].yaml'; err_has 'q[1].yaml'; rm 'q[1].yaml'
+echo 'scene: [{sphere: {}' >s/broken.yaml; exits 1 check s; err_has 's/broken.yaml:'; rm s/broken.yaml
+
+printf '# two\r\ns/a.yaml\r\n\n  \ns/inner/*.yml\n' >list
+exits 0 check @list; out_is "$(printf 's/%s: ok\n' a.yaml inner/b.yml)"
+for from in - @-; do
+    last="check $from <list"; "$monge" check $from <list >out 2>err; status=$?
+    ok "a list from standard input" [ $status -eq 0 ]; out_is "$(printf 's/%s: ok\n' a.yaml inner/b.yml)"
+done
+last='check - <scene'; "$monge" check - <s/a.yaml >out 2>err; out_is '-: ok'
+last='check -'; printf 'gone.yaml\ns/a.yaml\n' | "$monge" check - >out 2>err; status=$?
+ok "a list with what has gone" [ $status -eq 2 ]; err_has 'gone.yaml: No such file'; out_is "$(printf 'gone.yaml: not read\ns/a.yaml: ok')"
+echo '@list' >lists; exits 2 check @lists; err_has 'a list cannot have a list in it'
+exits 2 check @/dev/null; err_has 'the list is empty'
+exits 2 check @none; err_has 'cannot read none'
+last='check - @-'; "$monge" check - @- <list >out 2>err; status=$?; ok "standard input twice" [ $status -eq 2 ]; err_has 'standard input can be only one'
+
+printf 'scene:   []\n' >s/odd.yaml; printf 'params:   {r: 1}\n' >s/defs.yaml
+exits 1 fmt --check s; out_is "$(printf 's/%s\n' defs.yaml json.yaml odd.yaml)"
+rm s/odd.yaml
+
+# ---- Where pictures go ----
+
+exits 0 render -q s "${small[@]}"; there a.png inner/b.png inner/deep/c.png; missing .hidden defs.png h.png
+exits 0 render -q s "${small[@]}" -o 'p/{name}-x.png'; there p/a-x.png p/inner/deep/c-x.png
+mkdir made; exits 0 render -q s/ "${small[@]}" -o made; there made/inner/b.png
+cat list | "$monge" render - -q "${small[@]}" -o l/ 2>err; there l/a.png l/b.png
+exits 2 render s/a.yaml s/inner/deep "${small[@]}" s/a.yaml; err_has 'would both write'
+
+# ---- Several at once: the order is that of the batch ----
+
+mkdir many && cd many || exit 1
+printf 'image: {size: [200, 150], samples: 16}\nscene: [{sphere: {}}]\n' >01-slow.yaml
+for i in 02 03 04 06 07 08; do echo 'scene: [{sphere: {}}, {box: {min: [2, 0, 0], max: [3, 1, 1]}}]' >$i.yaml; done
+echo 'scene: [{sphere: {raduis: 1}}]' >05-wrong.yaml
+timeless() { sed 's/  [0-9.]* s$//' "$1"; }
+run render . -j 1 -o one/ "${small[@]}"; timeless err >one.err; ok "exit 1" [ $status -eq 1 ]
+run render . -j 4 -o one/ "${small[@]}"; timeless err >four.err; ok "exit 1" [ $status -eq 1 ]
+same one.err four.err
+ok "all are told" [ "$(grep -c ^wrote one.err)" -eq 7 ]
+ok "the summary" grep -qx '7 rendered, 1 failed' four.err
+mid=(--size 100x75)
+exits 1 render . -j 4 -o some/ --log log "${mid[@]}"; ok "the slow one comes first" sh -c 'head -n 1 err | grep -q 01-slow'
+ok "lines in order" [ "$(grep -o '"output": "[^"]*' log | cut -d'"' -f4 | sort -c && wc -l <log)" -eq 8 ]
+exits 1 render . -j 1 -o other/ -q "${mid[@]}"; for f in some/*.png; do same $f other/${f#some/}; done
+exits 1 render . -j 3 "${small[@]}" -q --log log; ok "a log grows" [ "$(wc -l <log)" -eq 16 ]
+printf torn >>log; exits 0 render 02.yaml -q "${small[@]}" --log log; ok "behind a torn line" sh -c 'tail -n 2 log | head -n 1 | grep -qx torn'
+exits 2 render 02.yaml 03.yaml -q "${small[@]}" --log /dev/full; err_has 'cannot write /dev/full: No space'; there 03.png
+exits 2 render 02.yaml --log no/log; err_has 'cannot write no/log'
+exits 2 render 02.yaml -o - --log -; err_has '--log -: standard output takes the picture'
+exits 0 render 02.yaml 03.yaml -q "${small[@]}" --log -; ok "a log on stdout" [ "$(grep -c '"status": "rendered"' out)" -eq 2 ]
+
+exits 1 render 0[1-3].yaml 05-wrong.yaml 06.yaml 07.yaml -j 1 --fail-fast "${small[@]}" -o fast/
+err_has '2 rendered, 1 failed, 2 not begun'; missing fast/06.png
+exits 1 render 05-wrong.yaml 06.yaml -k "${small[@]}" -o kept/; there kept/06.png
+exits 2 render 06.yaml -k --fail-fast; err_has 'give one of them'
+for i in 1 2 3 4; do cp 06.yaml more-$i.yaml; done
+exits 1 render . -o lots/ "${small[@]}"; err_has '11 rendered, 1 failed'; err_has 'failed lots/05-wrong.png  from ./05-wrong.yaml'
+exits 1 render . -j 4 -o doc/ "${small[@]}" --format json
+if have python3; then ok "a document alone" python3 -c 'import json; assert json.load(open("err"))[0]["code"] == "unknown-key"'; fi
+rm more-*
+
+run render . -j 2 -o bar/ --progress json --log log2 "${mid[@]}"
+if have python3; then
+    ok "progress and log" python3 - <<'PYTHON'
+import json
+lines = [json.loads(line) for line in open("err") if line.startswith("{")]
+assert [line["done"] for line in lines] == sorted(line["done"] for line in lines) and len(lines) >= 8
+last = lines[-1]
+assert (last["done"], last["total"], last["rendered"], last["failed"]) == (8, 8, 7, 1)
+assert last["part"] == 1 and last["seconds_left"] == 0 and lines[0]["seconds"] >= 0
+assert all(0 <= line["part"] <= 1 and line.get("pixels", 0) <= line.get("of_pixels", 0) for line in lines)
+log = [json.loads(line) for line in open("log2")]
+assert [p["status"] for p in log] == ["rendered"] * 4 + ["failed"] + ["rendered"] * 3
+assert log[0]["rays"]["camera"] == 100 * 75 * 16 and len(log[0]["pixel_hash"]) == 32 and log[1]["primitives"] == 2
+assert log[1]["scene_hash"] == log[2]["scene_hash"] != log[0]["scene_hash"] and log[4]["error"]
+PYTHON
+else left_out "progress and log: no python3"; fi
+exits 0 render 0[1-3].yaml -j 1 -o bar/ --size 400x300 --samples 4 --progress always; err_has ' of 2 pictures  ['
+cd ..
+
+# ---- Unchanged pictures ----
+
+mkdir unchanged && cd unchanged || exit 1
+printf 'include: lib/defs.yaml\nparams: {a: 1}\nscene: [{sphere: {radius: a * r}}]\n' >one.yaml
+mkdir lib; echo 'params: {r: 2}' >lib/defs.yaml
+printf 'animation: {frames: 3}\nscene: [{sphere: {radius: 1 + t}}, {box: {}}]\n' >two.yaml
+skip() { run render "${small[@]}" one.yaml --skip-unchanged "$@"; }
+wrote() { ok "$1: rendered" grep -q '^wrote one.png' err; skip; ok "$1: and then not" grep -qx 'unchanged one.png' err; }
+skip; wrote new
+touch one.yaml; skip; err_has 'unchanged one.png'
+ok "left as it is" [ one.png -ot one.yaml ]
+echo '# a comment' >>one.yaml; skip; wrote "the scene"
+echo 'params: {r: 3}' >lib/defs.yaml; skip; wrote "what it includes"
+skip --samples 2; ok "options" grep -q ^wrote err; skip; wrote "other options"
+skip -D a=2; ok "a parameter" grep -q ^wrote err; skip -D a=2; err_has 'unchanged one.png'; skip; wrote "without it"
+head -c -1 one.png >cut; mv cut one.png; skip; wrote "a torn picture"
+cp one.png good.png
+rm lib/defs.yaml; skip; ok "what has gone is an error" [ $status -eq 1 ]; same one.png good.png
+echo 'params: {r: 3}' >lib/defs.yaml; skip; err_has 'unchanged one.png'
+cp one.yaml copy.yaml; exits 0 render "${small[@]}" copy.yaml -o one.png --skip-unchanged; err_has 'unchanged one.png'
+if have python3; then
+    cat >edit.py <<'PYTHON'
+# edit.py KIND: changes a pixel, or the program, of one.png, and what the chunks need to be whole
+import struct, sys, zlib
+data, out, pixels, texts = open("one.png", "rb").read(), b"\x89PNG\r\n\x1a\n", b"", []
+at, chunks = 8, []
+while at < len(data):
+    size, kind = struct.unpack(">I4s", data[at:at + 8])
+    chunks.append([kind, data[at + 8:at + 8 + size]])
+    at += size + 12
+for chunk in chunks:
+    if sys.argv[1] == "pixel" and chunk[0] == b"IDAT":
+        rows = bytearray(zlib.decompress(chunk[1]))
+        rows[-1] ^= 1
+        chunk[1] = zlib.compress(bytes(rows))
+    if sys.argv[1] == "program" and chunk[1].startswith(b"monge:program"):
+        chunk[1] = b"monge:program\0" + b"0" * 32
+    out += struct.pack(">I", len(chunk[1])) + chunk[0] + chunk[1] + struct.pack(">I", zlib.crc32(chunk[0] + chunk[1]))
+open("one.png", "wb").write(out)
+PYTHON
+    for kind in pixel program; do
+        python3 edit.py $kind; ok "$kind: it is another file" sh -c '! cmp -s one.png good.png'
+        skip; wrote "another $kind"; same one.png good.png
+    done
+    python3 edit.py nothing; skip; err_has 'unchanged one.png'
+else left_out "edited pictures: no python3"; fi
+exits 0 render "${small[@]}" two.yaml --frames 1-2 --skip-unchanged; err_lacks unchanged
+exits 0 render "${small[@]}" two.yaml --frames all --skip-unchanged --log log --stats s.json
+err_has 'unchanged two-0002.png'; err_has 'wrote two-0003.png'; err_has '1 rendered, 2 unchanged'
+ok "the log says so" [ "$(grep -c '"status": "unchanged"' log)" -eq 2 ]; ok "so do statistics" grep -q unchanged s.json
+"$monge" render "${small[@]}" two.yaml --frames 3 -o alone.png 2>err; ok "a frame after unchanged ones" cmp alone.png two-0003.png
+cd ..
+
+# ---- Checkpoints ----
+
+mkdir resume && cd resume || exit 1
+printf 'image: {size: [320, 240], samples: 9}\nlights: [{point: {at: [4, 6, 9]}}]\nscene:\n' >long.yaml
+for x in -2 -1 0 1 2; do printf '  - sphere: {center: [%s, 0, 0], radius: 0.6}\n    material: {diffuse: [0.2, 0.2, 0.2], reflection: 0.6, refraction: 0.3, index: 1.3}\n' $x; done >>long.yaml
+sed -i 's/^scene/render: {depth: 12}\nscene/' long.yaml
+TIMEFORMAT=%U once=$({ time "$monge" render -q long.yaml --samples 1 -o probe.png; } 2>&1)
+long=(--samples "$(awk -v once="$once" 'BEGIN { n = int(2 / (once + 0.001)) + 1; print n < 500 ? n : 500 }')") # so many that it takes seconds
+"$monge" render -q long.yaml "${long[@]}" -o whole.png
+# kept SIGNAL ARGS...: sends the signal as soon as there is a checkpoint with some tiles. False: it was too late.
+kept() {
+    "$monge" render -q long.yaml "${@:2}" --resume 2>err & local pid=$!
+    for _ in $(seq 600); do
+        [ "$(stat -c %s .long.png.partial 2>/dev/null || echo 0)" -gt 20000 ] && break
+        kill -0 $pid 2>/dev/null || break
+        sleep 0.05
+    done
+    kill -"$1" $pid; wait $pid 2>/dev/null
+    [ -s .long.png.partial ] && [ ! -e long.png ]
+}
+for signal in KILL TERM; do
+    rm -f long.png .long.png.partial; last="render --resume (signal $signal)"
+    ok "$signal leaves a checkpoint" kept $signal "${long[@]}" --threads 1
+    cp .long.png.partial saved
+    exits 0 render long.yaml "${long[@]}" --threads 3 --resume; err_has 'resumed long.png  '; same long.png whole.png; missing .long.png.partial
+    exits 0 render long.yaml "${long[@]}" --resume; err_has 'unchanged long.png'
+done
+part() { run render long.yaml --samples 1 --size 64x48 --resume -o "${1:-long.png}"; }
+rm long.png; cp saved .long.png.partial; part; err_lacks resumed; missing .long.png.partial
+run render --samples 1 --size 64x48 -q long.yaml -o short.png; same long.png short.png
+rm long.png; { head -c -1000 saved; head -c 5000 /dev/urandom; } >.long.png.partial
+exits 0 render long.yaml "${long[@]}" --resume; err_has resumed; same long.png whole.png
+rm long.png; cp saved .long.png.partial; printf XXXX | dd of=.long.png.partial bs=1 seek=9000 conv=notrunc 2>/dev/null
+exits 0 render long.yaml "${long[@]}" --resume; same long.png whole.png
+rm long.png; cp saved .long.png.partial
+if have flock; then
+    flock .long.png.partial -c "'$monge' render long.yaml --samples 1 --size 64x48 --resume" 2>err; last='render --resume beside another'
+    err_has 'is rendered by another run as well'; there long.png .long.png.partial; rm -f .long.png.partial
+else left_out "a locked checkpoint: no flock"; fi
+ln -s nowhere .other.png.partial; part other.png; there other.png; rm .other.png.partial
+exits 0 render -q long.yaml --samples 1 --size 64x48 --resume -o -; ok "standard output" [ -s out ]
+cd ..
+
+# ---- What can go wrong ----
+
+mkdir wrong && cd wrong || exit 1
+for i in 1 2 3 4 5; do echo 'scene: [{sphere: {}}]' >$i.yaml; mkdir $i; done
+rmdir 3; echo file >3
+exits 2 render ?.yaml -j 2 "${small[@]}" -o '{name}/x.png'; err_has 'cannot make the folder 3'; there 1/x.png 2/x.png 4/x.png 5/x.png; err_has '4 rendered, 1 failed'
+rm -f ?/x.png
+apart= # a shell that may mount
+for how in -m -rm; do unshare $how sh -c 'mount -t tmpfs none 4' 2>/dev/null && apart="unshare $how sh -c" && break; done
+if [ -n "$apart" ]; then
+    last='with a read-only folder'
+    $apart "mount -t tmpfs -o ro none 4; '$monge' render ?.yaml -j 2 ${small[*]} -o '{name}/x.png'" >out 2>err; status=$?
+    ok "a read-only folder" [ $status -eq 2 ]; err_has 'cannot write 4/x.png: Read-only file system'; there 1/x.png 2/x.png 5/x.png
+    rm -f ?/x.png; last='with a full disk'
+    $apart "mount -t tmpfs -o size=4k none 2; '$monge' render ?.yaml --size 300x200 -o '{name}/x.png'; status=\$?; ls -A 2 >left.ls; exit \$status" >out 2>err; status=$?
+    ok "a full disk" [ $status -eq 2 ]; err_has 'cannot write 2/x.png: No space left'; there 1/x.png 5/x.png; ok "nothing is left there" [ ! -s left.ls ]
+    last='with a full disk and a checkpoint'; cp ../resume/long.yaml .
+    $apart "mount -t tmpfs -o size=200k none 2; '$monge' render long.yaml ${long[*]} --resume -o 2/; status=\$?; ls -A 2 >left.ls; cp 2/long.png .; exit \$status" >out 2>err; status=$?
+    ok "a checkpoint that has no room" [ $status -eq 0 ]; err_has 'cannot write the checkpoint 2/.long.png.partial: No space'; same long.png ../resume/whole.png; ok "it leaves the room" [ "$(cat left.ls)" = long.png ]
+else left_out "a read-only folder, a full disk: no mounts here"; fi
+(trap '' XFSZ; ulimit -f 8; "$monge" render 1.yaml 2.yaml --size 300x200 -q -o limited/ 2>err); status=$?; last='render under ulimit -f'
+ok "files too large" [ $status -eq 2 ]; err_has 'File too large'; missing limited/1.png
+mkfifo wait; printf '1.yaml\n2.yaml\n4.yaml\n' >names; last='render with an input that vanishes'
+cp 1.yaml slow.yaml
+"$monge" render --size 1000x1000 --samples 1 -q -j 1 slow.yaml 2.yaml 4.yaml -o vanished/ 2>err & pid=$!
+for _ in $(seq 200); do kill -0 $pid || break; [ -d vanished ] && break; sleep 0.01; done
+mv 2.yaml gone.yaml; wait $pid; status=$?; mv gone.yaml 2.yaml
+ok "a vanished input" [ $status -eq 2 ]; err_has 'cannot read 2.yaml: No such file'; there vanished/slow.png vanished/4.png
+last='two batches at once'
+"$monge" render ?.yaml --size 200x150 -q -j 2 -o both/ 2>err2 & "$monge" render ?.yaml --size 200x150 -q -j 2 -o both/ 2>err; status=$?
+wait $!; ok "the other" [ $? -eq 0 ]; ok "two batches at once" [ $status -eq 0 ]
+"$monge" render ?.yaml --size 200x150 -q -o single/; for f in single/*.png; do same both/${f#single/} $f; done
+cd ..
+rm -f resume/saved; no_leftovers
+
+echo "batch: $passed passed, $failed failed"
+[ "$failed" -eq 0 ]

@@ -1,0 +1,199 @@
+#!/usr/bin/env bash
+# Tests of monge diff on the command line: tests/diff.sh [PROGRAM], build/monge by default. Works in a folder of its own.
+# What the numbers must be is tested by tests/unit/test_compare.c and test_flip.c.
+
+monge=$(realpath "${1:-build/monge}")
+[ -x "$monge" ] || { echo "diff: no program $monge" >&2; exit 1; }
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 1
+
+passed=0 failed=0
+ok() { # ok NAME COMMAND...
+    if "${@:2}" >/dev/null 2>&1; then
+        passed=$((passed + 1))
+    else
+        failed=$((failed + 1))
+        echo "FAILED: $1"
+        echo "    after: monge $last; exit $status"
+        sed 's/^/    | /' out err
+    fi
+}
+exits() { # exits STATUS ARGS...
+    last=${*:2}
+    "$monge" "${@:2}" >out 2>err </dev/null
+    status=$?
+    ok "exit $1: monge ${*:2}" [ "$status" -eq "$1" ]
+}
+out_is() { ok "stdout is \`$1\`" [ "$(cat out)" = "$1" ]; }
+out_has() { ok "stdout has \`$1\`" grep -qF -e "$1" out; }
+err_has() { ok "stderr has \`$1\`" grep -qF -e "$1" err; }
+no_out() { ok "nothing on stdout" [ ! -s out ]; }
+no_err() { ok "nothing on stderr" [ ! -s err ]; }
+
+# ---- Pictures: an empty one in a grey, and one with a dot of four pixels in it ----
+
+cat >empty.yaml <<'END'
+image: {size: [40, 30], background: shade, samples: 1}
+params: {shade: "#808080", at: -100}
+camera: {eye: [0, 0, 10], look_at: [0, 0, 0], fov: 60}
+scene:
+  - box: {min: [-0.3, -0.3, at - 0.3], max: [0.3, 0.3, at + 0.3]}
+    material: {diffuse: "#b3b3b3"}
+END
+render() { "$monge" render -q --shading signature empty.yaml "$@" 2>/dev/null || { echo "FAILED: cannot render $*"; failed=1; }; }
+render -o grey.png -D at=200
+render -o again.png -D at=300
+render -o lighter.png -D at=200 -D 'shade=#838383'
+render -o dot.png -D at=0
+render -o small.png -D at=200 --size 20x30
+render -o deep.png -D at=200 --bits 16
+render -o linear.png -D at=200 --encoding linear
+cp grey.png copy.png
+
+# ---- The verdict ----
+
+exits 0 diff grey.png copy.png; out_is 'same: all of 1200 pixels are equal'; no_err
+exits 0 diff grey.png again.png; out_is 'same: all of 1200 pixels are equal'
+ok "that was not the same file" sh -c '! cmp -s grey.png again.png'
+exits 1 diff grey.png lighter.png; no_err
+out_is 'different: 1200 of 1200 pixels (100 %), largest difference 0.01176 at 0,0'
+exits 1 diff grey.png dot.png
+out_has 'different: 4 of 1200 pixels (0.333 %), largest difference 0.2 at 19,14'
+exits 1 diff grey.png small.png; out_is 'different: their sizes are 40 x 30 and 20 x 30 pixels'
+exits 1 diff grey.png linear.png; out_is 'different: their colour spaces are sRGB and gamma 1'
+exits 1 diff grey.png deep.png; out_has 'different: they have 8 and 16 bits a channel; '
+exits 1 diff -q grey.png dot.png; no_out; no_err
+exits 0 diff --quiet grey.png again.png; no_out; no_err
+
+# ---- Tolerances ----
+
+exits 0 diff grey.png lighter.png --max-delta 0.0118; out_has 'within the limits: 1200 of 1200 pixels'
+exits 1 diff grey.png lighter.png --max-delta 0.0117; out_has 'different: '
+exits 0 diff grey.png dot.png --max-pixels 4; out_has 'within the limits: 4 of 1200'
+exits 1 diff grey.png dot.png --max-pixels 3
+exits 0 diff grey.png dot.png --max-pixels 0.34%
+exits 1 diff grey.png dot.png --max-pixels 0.33%
+exits 0 diff grey.png dot.png --max-delta 0.2
+exits 1 diff grey.png dot.png --max-delta 0.19; out_has '4 of 1200'
+exits 0 diff lighter.png dot.png --max-delta 0.02 --max-pixels 4; out_has '; 4 beyond --max-delta'
+exits 1 diff lighter.png dot.png --max-delta 0.02 --max-pixels 3
+exits 1 diff lighter.png dot.png --max-delta 0.01 --max-pixels 4
+exits 1 diff grey.png small.png --max-delta 1 --max-pixels 100%
+exits 1 diff grey.png linear.png --max-delta 1 --max-pixels 100%
+exits 0 diff grey.png deep.png --max-delta 0.002
+
+# ---- Metrics ----
+
+exits 1 diff grey.png dot.png --metric mae,rmse --metric psnr,ssim,flip
+for metric in mae rmse psnr ssim flip; do out_has "$metric "; done
+ok "in the order of the table" [ "$(sed 1d out | cut -d' ' -f1 | tr '\n' ' ')" = 'mae rmse psnr ssim flip ' ]
+exits 1 diff grey.png dot.png --metric exact; out_has 'exact  0.00333333'
+exits 0 diff grey.png dot.png --metric mae --max-delta 0.00067
+exits 1 diff grey.png dot.png --metric mae --max-delta 0.00066
+exits 0 diff grey.png dot.png --metric rmse,psnr --max-delta 0.0116
+exits 1 diff grey.png dot.png --metric psnr --max-delta 0.0115
+exits 1 diff grey.png dot.png --metric mae --max-delta 0.1 --max-pixels 3
+exits 0 diff grey.png dot.png --metric mae --max-delta 0.1 --max-pixels 4
+exits 1 diff grey.png dot.png --metric flip --max-delta 0.001
+exits 0 diff grey.png dot.png --metric flip --max-delta 0.1
+exits 0 diff grey.png dot.png --metric ssim --max-delta 0.5
+exits 1 diff grey.png dot.png --metric ssim --max-delta 0.001
+exits 1 diff grey.png dot.png --metric max,flip --max-delta 0.1
+flip() { exits 1 diff grey.png dot.png --metric flip --json "$@"; flip=$(sed -n 's/.*"flip": //p' out); }
+flip; first=$flip
+for threads in 1 2 5; do flip --threads $threads; ok "$threads threads" [ "$flip" = "$first" ]; done
+flip --ppd 67; ok "67 is the default of --ppd" [ "$flip" = "$first" ]
+flip --ppd 20; ok "--ppd matters" [ "$flip" != "$first" ]
+
+# ---- What is ignored ----
+
+exits 0 diff grey.png dot.png --ignore 19,14,2,2; out_is 'same: all of 1196 pixels are equal'
+exits 1 diff grey.png dot.png --ignore 19,14,2,1; out_has '2 of 1198 pixels'
+exits 0 diff grey.png dot.png --ignore 0,0,20,30 --ignore=20,0,1000,1000; out_has 'all of 0 pixels'
+render -o white.png -D at=0 -D 'shade=#000000'
+exits 0 diff grey.png dot.png --ignore white.png; out_has 'all of 1196 pixels'
+exits 0 diff grey.png dot.png --mask white.png; out_has 'all of 1196 pixels'
+exits 0 diff grey.png dot.png --mask white.png --ignore 0,0,1,1; out_has 'all of 1195 pixels'
+exits 2 diff grey.png dot.png --mask small.png; err_has 'small.png: it is 20 x 30 pixels'; no_out
+exits 2 diff grey.png dot.png --mask white.png --ignore white.png; err_has 'there can be only one mask'
+exits 2 diff grey.png dot.png --ignore 1,2,3; err_has '--ignore: expected X,Y,W,H'
+exits 2 diff grey.png dot.png --ignore absent.png; err_has 'cannot read absent.png: '
+
+# ---- JSON ----
+
+all=exact,max,mae,rmse,psnr,ssim,flip
+exits 1 diff grey.png dot.png --json --metric $all
+exits 1 diff grey.png dot.png --json; out_has '"exact": 0.003333333'; out_has '"max": 0.2'
+out_has '"same": false'; out_has '"why": "pixels"'; out_has '"bounds": {"x": 19, "y": 14, "width": 2, "height": 2}'
+ok "no metric that is not asked for" sh -c '! grep -q flip out'
+exits 0 diff grey.png again.png --json --metric psnr; out_has '"psnr": null'; out_has '"why": null'; out_has '"bounds": null'
+exits 1 diff grey.png small.png --json --metric $all; out_has '"why": "size"'; out_has '"flip": null'
+exits 0 diff grey.png dot.png --json --max-pixels 4; out_has '"same": true'; out_has '"why": "pixels"'; out_has '"beyond": 4'
+if command -v python3 >/dev/null; then
+    for pair in dot.png again.png copy.png small.png linear.png deep.png; do
+        "$monge" diff grey.png $pair --json --metric $all >out
+        ok "JSON of $pair" python3 -c '
+import json, sys
+d = json.load(open("out"))
+assert {"same", "why", "a", "b", "pixels", "different", "beyond", "bounds", "largest"} | set(sys.argv[1].split(",")) == set(d)
+assert all(d[m] is None or 0 <= d[m] <= 1 for m in ("exact", "max", "mae", "rmse", "flip"))' $all
+    done
+fi
+
+# ---- Heat maps ----
+
+is_png() { ok "$1 is a PNG" sh -c 'head -c 8 "$1" | od -An -tx1 | tr -d " \n" | grep -qx 89504e470d0a1a0a' sh "$1"; }
+exits 1 diff grey.png dot.png --out heat.png; is_png heat.png; out_has '4 of 1200'
+exits 0 diff grey.png again.png --out even.png; is_png even.png
+exits 1 diff heat.png even.png --json; out_has '"different": 4'
+exits 1 diff grey.png dot.png --metric flip --out flip.png; is_png flip.png
+exits 1 diff heat.png flip.png --quiet
+exits 1 diff grey.png dot.png --ignore 19,14,1,2 --out heat.png
+exits 1 diff heat.png even.png --json; out_has '"different": 2'
+exits 1 diff grey.png dot.png --out -; is_png out
+exits 1 diff grey.png small.png --out none.png; err_has 'no heat map'; ok "none.png is not there" [ ! -e none.png ]
+exits 2 diff grey.png dot.png --out folder/heat.png; err_has 'cannot write folder/heat.png'
+exits 2 diff grey.png dot.png --out - --json; err_has '--out -: standard output takes the JSON object'
+cp dot.png kept.png
+exits 2 diff grey.png kept.png --out ./kept.png; err_has 'would write over a picture'
+ok "kept.png is as it was" cmp -s kept.png dot.png
+exits 2 diff grey.png dot.png --out /dev/full; err_has 'cannot write /dev/full: No space left on device'
+ok "no temporary files" [ -z "$(find . -name '*.tmp' -o -name '.*.tmp')" ]
+
+# ---- Trouble ----
+
+head -c 100 grey.png >cut.png
+cp cut.png cut2.png
+: >none
+exits 2 diff grey.png absent.png; err_has 'cannot read absent.png: No such file'; no_out
+exits 2 diff grey.png .; err_has 'cannot read .: Is a directory'
+exits 2 diff grey.png cut.png; err_has 'cannot use cut.png: the file is cut off'
+exits 2 diff cut.png cut2.png; err_has 'cannot use cut.png'
+exits 2 diff grey.png none; err_has 'error[bad-picture]: cannot use none: the file is empty'
+exits 2 diff grey.png empty.yaml; err_has 'it is no PNG file'
+exits 2 diff grey.png; err_has 'diff: expected two pictures, found 1'; err_has 'see `monge help diff`'
+exits 2 diff grey.png again.png dot.png; err_has 'found 3'
+exits 2 diff; err_has 'diff: no picture given'
+exits 2 diff - -; err_has 'standard input can be only one picture'
+exits 2 diff grey.png dot.png --metric blip; err_has '--metric: expected exact, max, mae, rmse, psnr, ssim or flip, found `blip`'
+exits 2 diff grey.png dot.png --metric mae,,max; err_has '--metric: expected'
+exits 2 diff grey.png dot.png --metric mae,; err_has '--metric: expected'
+for wrong in nan -0.1 1.1 x ''; do
+    exits 2 diff grey.png dot.png --max-delta "$wrong"; err_has '--max-delta: expected a number from 0 to 1'
+done
+for wrong in nan -1 101% 1.5 % '' 5%%; do
+    exits 2 diff grey.png dot.png --max-pixels "$wrong"; err_has '--max-pixels: expected a whole number, or 0 to 100 and %'
+done
+exits 2 diff grey.png dot.png --ppd 0; err_has '--ppd: expected a number from 1 to 1000'
+
+# ---- Streams ----
+
+"$monge" diff - grey.png <again.png >out 2>err; status=$? last='diff - grey.png'
+ok "standard input" [ $status -eq 0 ]
+cat dot.png | "$monge" diff grey.png - >out 2>err; status=$? last='diff grey.png -'
+ok "a pipe" [ $status -eq 1 ]
+exits 2 diff grey.png -; err_has 'cannot use standard input: the file is empty'
+
+echo "$passed passed, $failed failed"
+[ "$failed" -eq 0 ]

@@ -1,0 +1,400 @@
+/* What is told of two renderings of scenes that differ in one thing. */
+#include <string.h>
+#include <unistd.h>
+
+#include "image/changes.h"
+#include "image/encode.h"
+#include "near.h"
+
+/* ---- Pictures ---- */
+
+struct rendered {
+    struct monge_film *film;
+    struct monge_layers *layers;
+};
+
+static struct rendered render(const char *text, unsigned set) {
+    struct monge_diagnostics *diag = monge_diagnostics_new();
+    struct monge_scene *scene = monge_load_memory("scene.yaml", text, strlen(text), NULL, diag);
+    monge_diagnostics_print(diag, stdout);
+    assert_non_null(scene);
+    struct monge_settings settings = monge_scene_settings(scene);
+    settings.width = 96;
+    settings.height = 72;
+    settings.samples = 4;
+    struct rendered r = {monge_render(scene, &settings, NULL, NULL, NULL),
+                         monge_render_layers(scene, &settings, NULL, set, NULL)};
+    assert_non_null(r.film);
+    assert_non_null(r.layers);
+    monge_scene_free(scene);
+    monge_diagnostics_free(diag);
+    return r;
+}
+
+static void forget(struct rendered *r) {
+    monge_film_free(r->film);
+    monge_layers_free(r->layers);
+}
+
+enum { PIXELS = 96 * 72, ROOM = 8 };
+
+static void find_differences(const struct rendered *a, const struct rendered *b, uint8_t differs[PIXELS]) {
+    const float *p = monge_film_pixels(a->film), *q = monge_film_pixels(b->film);
+    for (int i = 0; i < PIXELS; i++) {
+        differs[i] = 0;
+        for (int c = 3 * i; c < 3 * i + 3; c++)
+            differs[i] |=
+                encode_channel(p[c], MONGE_ENCODING_SRGB, 8) != encode_channel(q[c], MONGE_ENCODING_SRGB, 8);
+    }
+}
+
+/* ---- Rows ---- */
+
+struct row {
+    const char *name, *older, *newer;
+    const char *want; /* the changes, a line each */
+    unsigned without; /* layers that are not there */
+};
+
+#define HEAD                                                                                                 \
+    "camera: {eye: [0, 3, 8], look_at: [0, 0.7, 0]}\n"                                                       \
+    "lights: [{point: {at: [-4, 8, 6]}}, {ambient: {color: [0.2, 0.2, 0.2]}}]\n"
+#define FLOOR "  - {name: floor, plane: {normal: [0, 1, 0]}, material: {ambient: white, diffuse: '#aaa'}}\n"
+#define BALL  "  - {name: ball, sphere: {center: [-1.5, 1, 0]}, material: {ambient: red, diffuse: red}}\n"
+#define BOX   "  - {box: {min: [0.6, 0, -0.5], max: [1.6, 1, 0.5]}, material: {ambient: blue, diffuse: blue}}\n"
+#define SCENE "scene:\n"
+#define TOWER                                                                                                \
+    "define: {tower: {objects: [{cylinder: {from: [0, 0, 0], to: [0, 2, 0], radius: 0.4}}, {sphere: "        \
+    "{center: [0, 2, 0], radius: 0.6}}]}}\n"
+/* So many that it becomes a geometry of its own. */
+#define STACK "define: {stack: {objects: [{for: {i: 20}, sphere: {center: [0, 0.1 * i, 0], radius: 0.5}}]}}\n"
+
+static struct row rows[] = {
+    {"nothing", HEAD SCENE FLOOR BALL BOX, HEAD SCENE FLOOR BALL BOX, "", 0},
+    {"a ball has moved", HEAD SCENE FLOOR BALL BOX,
+     HEAD SCENE FLOOR
+     "  - {name: ball, sphere: {center: [-1.5, 1, 0.6]}, material: {ambient: red, diffuse: red}}\n" BOX,
+     "object \"ball\" (scene.yaml:5): geometry moved\n"
+     "object \"floor\" (scene.yaml:4): shadow changed\n",
+     0},
+    {"in front of another", HEAD SCENE FLOOR BALL BOX,
+     HEAD SCENE FLOOR
+     "  - {name: ball, sphere: {center: [0.8, 1, 2]}, material: {ambient: red, diffuse: red}}\n" BOX,
+     "object \"ball\" (scene.yaml:5): geometry moved\n"
+     "object \"floor\" (scene.yaml:4): shadow changed\n",
+     0},
+    {"another colour", HEAD SCENE FLOOR BALL BOX,
+     HEAD SCENE FLOOR
+     "  - {name: ball, sphere: {center: [-1.5, 1, 0]}, material: {ambient: red, diffuse: lime}}\n" BOX,
+     "object \"ball\" (scene.yaml:5): shading changed, geometry equal\n", 0},
+    {"a named material for another",
+     "materials: {a: {diffuse: red}, b: {diffuse: lime}}\n" HEAD SCENE FLOOR
+     "  - {name: ball, sphere: {center: [0, 1, 0]}, material: a}\n  - {sphere: "
+     "{center: [2, 1, 0], radius: 0.2}, material: b}\n",
+     "materials: {a: {diffuse: red}, b: {diffuse: lime}}\n" HEAD SCENE FLOOR
+     "  - {name: ball, sphere: {center: [0, 1, 0]}, material: b}\n  - {sphere: {center: [2, 1, 0], radius: "
+     "0.2}, material: b}\n",
+     "object \"ball\" (scene.yaml:6): material changed, geometry equal\n", 0},
+    {"one has come", HEAD SCENE FLOOR BALL, HEAD SCENE FLOOR BALL BOX,
+     "box (scene.yaml:6): appeared\n"
+     "object \"floor\" (scene.yaml:4): shadow changed\n",
+     0},
+    {"one has gone", HEAD SCENE FLOOR BALL BOX, HEAD SCENE FLOOR BOX,
+     "object \"ball\" (scene.yaml:5): disappeared\n"
+     "object \"floor\" (scene.yaml:4): shadow changed\n",
+     0},
+    {"the light has moved", HEAD SCENE FLOOR BALL,
+     "camera: {eye: [0, 3, 8], look_at: [0, 0.7, 0]}\n"
+     "lights: [{point: {at: [4, 8, 6]}}, {ambient: {color: [0.2, 0.2, 0.2]}}]\n" SCENE FLOOR BALL,
+     "object \"floor\" (scene.yaml:4): shading changed, geometry equal\n"
+     "object \"ball\" (scene.yaml:5): shading changed, geometry equal\n"
+     "object \"floor\" (scene.yaml:4): shadow changed\n"
+     "object \"ball\" (scene.yaml:5): shadow changed\n",
+     0},
+    {"lines have shifted, one of three without names has moved",
+     HEAD SCENE
+     "  - sphere: {center: [-2, 1, 0], radius: 0.7}\n  - sphere: {center: [0, 1, 0], radius: 0.7}\n"
+     "  - sphere: {center: [2, 1, 0], radius: 0.7}\n",
+     "# a line\n\n" HEAD SCENE
+     "  - sphere: {center: [-2, 1, 0], radius: 0.7}\n  - sphere: {center: [0, 1.8, 0], radius: 0.7}\n"
+     "  - sphere: {center: [2, 1, 0], radius: 0.7}\n",
+     "sphere (scene.yaml:7): geometry moved\n", 0},
+    {"one is new before the others of its kind",
+     HEAD SCENE
+     "  - sphere: {center: [-2, 1, 0], radius: 0.7}\n  - sphere: {center: [0, 1, 0], radius: 0.7}\n",
+     HEAD SCENE
+     "  - sphere: {center: [2, 1, 0], radius: 0.7}\n"
+     "  - sphere: {center: [-2, 1, 0], radius: 0.7}\n  - sphere: {center: [0, 1, 0], radius: 0.7}\n",
+     "sphere (scene.yaml:4): appeared\n", 0},
+    {"another name", HEAD SCENE FLOOR BALL,
+     HEAD SCENE FLOOR
+     "  - {name: globe, sphere: {center: [-1.5, 1, 0]}, material: {ambient: red, diffuse: lime}}\n",
+     "object \"globe\" (scene.yaml:5): shading changed, geometry equal\n", 0},
+    {"what a mirror shows",
+     HEAD SCENE "  - {name: mirror, sphere: {center: [0, 1, 0]}, material: {diffuse: black, reflection: 1}}\n"
+                "  - {name: far, sphere: {center: [0, 1, 12]}, material: {ambient: red}}\n",
+     HEAD SCENE "  - {name: mirror, sphere: {center: [0, 1, 0]}, material: {diffuse: black, reflection: 1}}\n"
+                "  - {name: far, sphere: {center: [1, 1, 12]}, material: {ambient: red}}\n",
+     "object \"mirror\" (scene.yaml:4): shading changed, geometry equal\n", 0},
+    {"the background", "image: {background: black}\n" HEAD SCENE BALL,
+     "image: {background: navy}\n" HEAD SCENE BALL, "background: colour changed\n", 0},
+    {"of a template in use, the use",
+     TOWER HEAD SCENE "  - {use: tower, transform: [{translate: [-2, 0, 0]}]}\n"
+                      "  - {use: tower, transform: [{translate: [1, 0, 0]}]}\n",
+     TOWER HEAD SCENE "  - {use: tower, transform: [{translate: [-2, 0, 0]}]}\n"
+                      "  - {use: tower, transform: [{translate: [2, 0, 0]}]}\n",
+     "use of tower (scene.yaml:6): geometry moved\n", 0},
+    {"of a template that is shared, the use",
+     STACK HEAD SCENE "  - {use: stack, transform: [{translate: [-2, 0, 0]}]}\n"
+                      "  - {name: right, use: stack, transform: [{translate: [1, 0, 0]}]}\n",
+     STACK HEAD SCENE
+     "  - {use: stack, transform: [{translate: [-2.5, 0, 0]}]}\n"
+     "  - {name: right, use: stack, material: {diffuse: red}, transform: [{translate: [1, 0, 0]}]}\n",
+     "use of stack (scene.yaml:5): geometry moved\n"
+     "object \"right\" (scene.yaml:6): shading changed, geometry equal\n",
+     0},
+    {"two of one name, the second has gone",
+     HEAD SCENE "  - {name: ball, sphere: {center: [-2, 1, 0], radius: 0.7}}\n"
+                "  - {name: ball, sphere: {center: [0, 1, 0], radius: 0.7}}\n",
+     HEAD SCENE "  - {name: ball, sphere: {center: [0, 1, 0], radius: 0.7}}\n",
+     "object \"ball\" (scene.yaml:4): disappeared\n", 0},
+    {"two have changed places",
+     HEAD SCENE "  - {name: a, sphere: {center: [-2, 1, 0], radius: 0.7}, material: {ambient: red}}\n"
+                "  - {name: b, sphere: {center: [2, 1, 0], radius: 0.7}, material: {ambient: blue}}\n",
+     HEAD SCENE "  - {name: a, sphere: {center: [2, 1, 0], radius: 0.7}, material: {ambient: red}}\n"
+                "  - {name: b, sphere: {center: [-2, 1, 0], radius: 0.7}, material: {ambient: blue}}\n",
+     "object \"b\" (scene.yaml:5): geometry moved\n"
+     "object \"a\" (scene.yaml:4): geometry moved\n",
+     0},
+    {"something thin beside what has changed too",
+     HEAD SCENE FLOOR
+     "  - {name: wire, cylinder: {from: [0, 0, 0], to: [0, 2, 0], radius: 0.05}, material: {ambient: red}}\n",
+     HEAD SCENE "  - {name: floor, plane: {normal: [0, 1, 0]}, material: {ambient: white, diffuse: '#888'}}\n"
+                "  - {name: wire, cylinder: {from: [0, 0, 0], to: [0, 2, 0], radius: 0.05}, material: "
+                "{ambient: lime}}\n",
+     "object \"floor\" (scene.yaml:4): shading changed, geometry equal\n"
+     "object \"wire\" (scene.yaml:5): shading changed, geometry equal\n",
+     0},
+    {"what has moved in its own plane, under another shadow",
+     HEAD SCENE "  - {name: tile, box: {min: [-2, -1, -2], max: [2, 0, 2]}, material: {reflection: 0.5}}\n"
+                "  - {name: ball, sphere: {center: [0, 1, 0], radius: 0.6}}\n",
+     HEAD SCENE "  - {name: tile, box: {min: [-2, -1, -2], max: [2.5, 0, 2]}, material: {reflection: 0.5}}\n"
+                "  - {name: ball, sphere: {center: [0.2, 1, 0], radius: 0.6}}\n",
+     "object \"tile\" (scene.yaml:4): geometry moved\n"
+     "object \"ball\" (scene.yaml:5): geometry moved\n",
+     0},
+    {"without depth and normals", HEAD SCENE FLOOR BALL, HEAD SCENE FLOOR BALL BOX,
+     "box (scene.yaml:6): appeared\n"
+     "object \"floor\" (scene.yaml:4): shadow changed\n",
+     1 << MONGE_LAYER_DEPTH | 1 << MONGE_LAYER_NORMAL},
+};
+
+/* Tells the changes, a line each. */
+static void tell(const struct monge_layers *older, const struct monge_layers *newer, const uint8_t *differs,
+                 char *text, size_t size) {
+    struct monge_change changes[ROOM];
+    size_t count = 0, length = 0;
+    assert_true(changes_find(older, newer, differs, changes, ROOM, &count));
+    assert_true(count <= ROOM);
+    *text = '\0';
+    for (size_t i = 0; i < count; i++) {
+        length += monge_change_text(&changes[i], text + length, size - length);
+        assert_true(length + 1 < size);
+        strcpy(text + length++, "\n");
+    }
+}
+
+static void test_row(void **state) {
+    const struct row *row = *state;
+    const unsigned set = MONGE_LAYERS_ALL & ~row->without;
+    struct rendered a = render(row->older, set), b = render(row->newer, set);
+    static uint8_t differs[PIXELS];
+    char got[2000];
+    find_differences(&a, &b, differs);
+    tell(a.layers, b.layers, differs, got, sizeof got);
+    assert_string_equal(got, row->want);
+    forget(&a);
+    forget(&b);
+}
+
+/* ---- Where, and how many ---- */
+
+static void test_bounds(void **state) {
+    (void)state;
+    static const char
+        older[] = "camera: {projection: orthographic, eye: [0, 0, 5], look_at: [0, 0, 0], height: 7.2}\n"
+                  "scene: [{square: {center: [-3, 0, 0], size: 2}}, {sphere: {center: [3, 3, 0], "
+                  "radius: 0.5}}]\n",
+        newer[] = "camera: {projection: orthographic, eye: [0, 0, 5], look_at: [0, 0, 0], height: 7.2}\n"
+                  "scene: [{square: {center: [-3, 0, 0], size: 2}, material: {diffuse: red}}, {sphere: "
+                  "{center: [3, 2, 0], radius: 0.5}}]\n";
+    struct rendered a = render(older, MONGE_LAYERS_ALL), b = render(newer, MONGE_LAYERS_ALL);
+    static uint8_t differs[PIXELS];
+    struct monge_change changes[2];
+    size_t count = 0;
+    find_differences(&a, &b, differs);
+    assert_true(changes_find(a.layers, b.layers, differs, changes, 1, &count));
+    assert_int_equal(count, 2);
+    assert_string_equal(changes[0].object->kind, "square");
+    assert_int_equal(changes[0].pixels, 400);
+    const struct monge_region r = changes[0].bounds; /* ten pixels a unit, (48, 36) in the middle */
+    assert_true(r.x == 8 && r.y == 26 && r.width == 20 && r.height == 20);
+    assert_true(changes_find(a.layers, b.layers, differs, changes, 2, &count));
+    assert_string_equal(changes[1].object->kind, "sphere");
+    assert_true(changes[1].bounds.y == 1 && changes[1].bounds.height == 20);
+    assert_true(changes[1].bounds.x == 73 && changes[1].bounds.width == 10);
+    forget(&a);
+    forget(&b);
+}
+
+/* What moves by less than another program's rounding has not moved. */
+static void test_tolerance(void **state) {
+    (void)state;
+    static const struct {
+        float depth;
+        uint16_t normal;
+        size_t count;
+    } cases[] = {{10.0f, 500, 0}, {10.00001f, 500, 0}, {10.0001f, 500, 1}, {10.0f, 502, 0}, {10.0f, 503, 1}};
+    static struct monge_entry entry = {1, "ball", "sphere", "scene.yaml", 1, 1};
+    static const uint8_t differs[9];
+    for (size_t k = 0; k < COUNT(cases); k++) {
+        struct monge_layers *layers[2];
+        for (int side = 0; side < 2; side++) {
+            layers[side] = layers_new(3, 3, (struct monge_region){0, 0, 3, 3}, MONGE_LAYERS_ALL);
+            layers[side]->entries[0] = (struct layer_entries){&entry, 1, 1};
+            for (int i = 0; i < 9; i++) {
+                layers[side]->ids[0][i] = 1;
+                layers[side]->depth[i] = side ? cases[k].depth : 10.0f;
+                layers[side]->normals[3 * i + 1] = side ? cases[k].normal : 500;
+            }
+        }
+        struct monge_change change;
+        size_t count;
+        assert_true(changes_find(layers[0], layers[1], differs, &change, 1, &count));
+        assert_int_equal(count, cases[k].count);
+        monge_layers_free(layers[0]);
+        monge_layers_free(layers[1]);
+    }
+}
+
+static void test_refused(void **state) {
+    (void)state;
+    static const uint8_t differs[PIXELS];
+    struct rendered a = render(HEAD SCENE BALL, MONGE_LAYERS_ALL),
+                    b = render(HEAD SCENE BALL, 1 << MONGE_LAYER_DEPTH);
+    struct monge_change change;
+    size_t count;
+    assert_true(changes_find(a.layers, a.layers, differs, &change, 1, &count));
+    assert_false(changes_find(a.layers, b.layers, differs, &change, 1, &count));
+    struct monge_diagnostics *diag = monge_diagnostics_new();
+    struct monge_scene *scene = monge_load_memory("t", HEAD SCENE BALL, strlen(HEAD SCENE BALL), NULL, diag);
+    const struct monge_settings settings = monge_scene_settings(scene);
+    const struct monge_region region = {0, 0, 96, 71};
+    struct monge_layers *smaller = monge_render_layers(scene, &settings, &region, MONGE_LAYERS_ALL, NULL);
+    assert_false(changes_find(a.layers, smaller, differs, &change, 1, &count));
+    monge_layers_free(smaller);
+    monge_scene_free(scene);
+    monge_diagnostics_free(diag);
+    forget(&a);
+    forget(&b);
+}
+
+/* ---- From files ---- */
+
+static int enter_folder(void **state) {
+    char *folder = strdup("/tmp/monge-changes-XXXXXX");
+    *state = folder;
+    return mkdtemp(folder) && chdir(folder) == 0 ? 0 : -1;
+}
+
+static int leave_folder(void **state) {
+    char command[100];
+    snprintf(command, sizeof command, "rm -r %s", (char *)*state);
+    const int status = chdir("/") || system(command);
+    free(*state);
+    return status;
+}
+
+static void write_files(const struct rendered *r, const char *picture, struct monge_diagnostics *diag) {
+    assert_true(monge_film_write_png(r->film, picture, diag));
+    for (enum monge_layer layer = 0; layer < MONGE_LAYERS; layer++) {
+        char path[100];
+        monge_layer_path(layer, picture, path, sizeof path);
+        assert_true(monge_layer_write(r->layers, layer, path, diag));
+    }
+}
+
+static void test_files(void **state) {
+    (void)state;
+    const struct row *row = &rows[1];
+    struct rendered a = render(row->older, MONGE_LAYERS_ALL), b = render(row->newer, MONGE_LAYERS_ALL);
+    struct monge_diagnostics *diag = monge_diagnostics_new();
+    write_files(&a, "a.png", diag);
+    write_files(&b, "b.png", diag);
+    struct monge_picture *p = monge_picture_read("a.png", diag), *q = monge_picture_read("b.png", diag);
+    struct monge_layers *of_p = monge_layers_read("a.png", MONGE_LAYERS_ALL, diag),
+                        *of_q = monge_layers_read("b.png", MONGE_LAYERS_ALL, diag);
+    struct monge_change changes[ROOM];
+    const struct monge_compare how = {.max_delta = 0.0}, loose = {.max_delta = 1.0};
+    size_t count;
+    assert_true(monge_changes(p, of_p, q, of_q, &how, changes, ROOM, &count, diag));
+    assert_int_equal(count, 2);
+    assert_string_equal(changes[0].object->name, "ball");
+    assert_int_equal(changes[0].kind, MONGE_CHANGE_GEOMETRY);
+    assert_int_equal(changes[1].kind, MONGE_CHANGE_SHADOW);
+    assert_true(monge_changes(p, of_p, q, of_q, &loose, changes, ROOM, &count, diag));
+    assert_int_equal(count, 1);
+    assert_int_equal(monge_diagnostics_failures(diag), 0);
+    assert_false(
+        monge_changes(p, of_p, q, of_p, &how, changes, ROOM, &count, diag)); /* passes of another picture */
+    assert_int_equal(monge_diagnostics_failures(diag), 1);
+    monge_layers_free(of_p);
+    monge_layers_free(of_q);
+    monge_picture_free(p);
+    monge_picture_free(q);
+    monge_diagnostics_free(diag);
+    forget(&a);
+    forget(&b);
+}
+
+/* ---- Why ---- */
+
+static void assert_causes(struct monge_stamp older, struct monge_stamp newer, const char *want) {
+    char got[200];
+    const struct monge_causes causes = monge_causes(&older, &newer);
+    const size_t length = monge_causes_text(&causes, got, sizeof got);
+    assert_string_equal(got, want);
+    assert_int_equal(length, strlen(want));
+    assert_int_equal(monge_causes_text(&causes, got, 4), strlen(want));
+    assert_int_equal(strlen(got), 3);
+}
+
+static void test_causes(void **state) {
+    (void)state;
+    const struct monge_stamp first = {"p1", "s1", "t1", ""};
+    assert_causes(first, first, "the scene's text, the options and the program are the same");
+    assert_causes(first, (struct monge_stamp){"p1", "s2", "t2", ""},
+                  "the scene's text differs; the options and the program are the same");
+    assert_causes(
+        first, (struct monge_stamp){"p1", "s1", "t2", ""},
+        "the scene's text, but not what it means, differs; the options and the program are the same");
+    assert_causes(first, (struct monge_stamp){"p2", "s1", "t1", "--samples 4"},
+                  "the options and the program differ; the scene's text is the same");
+    assert_causes(first, (struct monge_stamp){"p1", "s1", "t1", NULL},
+                  "the scene's text and the program are the same; the options are not known");
+    assert_causes(first, (struct monge_stamp){NULL, "s1", NULL, "--samples 4"},
+                  "the options differ; the scene's text and the program are not known");
+}
+
+int main(void) {
+    struct CMUnitTest tests[COUNT(rows) + 8];
+    size_t count = 0;
+    for (size_t i = 0; i < COUNT(rows); i++)
+        tests[count++] = (struct CMUnitTest){rows[i].name, test_row, NULL, NULL, &rows[i]};
+    const struct CMUnitTest others[] = {
+        cmocka_unit_test(test_bounds), cmocka_unit_test(test_refused), cmocka_unit_test(test_tolerance),
+        cmocka_unit_test(test_causes),
+        cmocka_unit_test_setup_teardown(test_files, enter_folder, leave_folder)};
+    for (size_t i = 0; i < COUNT(others); i++) tests[count++] = others[i];
+    return _cmocka_run_group_tests("changes", tests, count, NULL, NULL);
+}

@@ -1,0 +1,281 @@
+/* Reading PNG files: every kind of them as libpng has it, and what is broken never as a picture. */
+#include "pictures.h"
+
+#include <libdeflate.h>
+#include <sys/stat.h>
+
+/* ---- Pixels ---- */
+
+/* Every row is that of libpng, which is the oracle. */
+static void check_rows(const char *path, struct monge_picture *picture) {
+    png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, NULL, NULL, NULL);
+    png_infop info = png_create_info_struct(png);
+    FILE *file = fopen(path, "rb");
+    png_init_io(png, file);
+    png_read_png(png, info, PNG_TRANSFORM_EXPAND, NULL);
+    fclose(file);
+    assert_int_equal(monge_picture_width(picture), png_get_image_width(png, info));
+    assert_int_equal(monge_picture_height(picture), png_get_image_height(png, info));
+    assert_int_equal(monge_picture_channels(picture), png_get_channels(png, info));
+    assert_int_equal(monge_picture_bits(picture), png_get_bit_depth(png, info));
+    for (uint32_t y = 0; y < monge_picture_height(picture); y++)
+        if (memcmp(monge_picture_row(picture, y), png_get_rows(png, info)[y], png_get_rowbytes(png, info)) != 0)
+            fail_msg("%s: row %u", path, y);
+    png_destroy_read_struct(&png, &info, NULL);
+}
+
+static void check_sample(const struct sample *sample) {
+    struct monge_diagnostics *diag = monge_diagnostics_new();
+    write_sample("a.png", sample);
+    struct monge_picture *picture = read_good("a.png");
+    assert_true(monge_picture_decode(picture, diag));
+    check_rows("a.png", picture);
+    monge_picture_free(picture);
+    monge_diagnostics_free(diag);
+}
+
+static void all_kinds_are_read(void **state) {
+    (void)state;
+    static const struct {
+        int type, bits;
+    } kinds[] = {
+        {PNG_COLOR_TYPE_GRAY, 1},     {PNG_COLOR_TYPE_GRAY, 2},        {PNG_COLOR_TYPE_GRAY, 4},
+        {PNG_COLOR_TYPE_GRAY, 8},     {PNG_COLOR_TYPE_GRAY, 16},       {PNG_COLOR_TYPE_RGB, 8},
+        {PNG_COLOR_TYPE_RGB, 16},     {PNG_COLOR_TYPE_PALETTE, 1},     {PNG_COLOR_TYPE_PALETTE, 2},
+        {PNG_COLOR_TYPE_PALETTE, 4},  {PNG_COLOR_TYPE_PALETTE, 8},     {PNG_COLOR_TYPE_GRAY_ALPHA, 8},
+        {PNG_COLOR_TYPE_RGB_ALPHA, 8}, {PNG_COLOR_TYPE_GRAY_ALPHA, 16}, {PNG_COLOR_TYPE_RGB_ALPHA, 16},
+    };
+    for (size_t k = 0; k < COUNT(kinds); k++)
+        for (int more = 0; more < 4; more++) {
+            const bool keyed = more & 1 && !(kinds[k].type & PNG_COLOR_MASK_ALPHA);
+            check_sample(SAMPLE(37, 23, .type = kinds[k].type, .bits = kinds[k].bits, .interlaced = more & 2, .keyed = keyed));
+        }
+}
+
+static void all_filters_are_undone(void **state) {
+    (void)state;
+    static const int types[] = {PNG_COLOR_TYPE_GRAY, PNG_COLOR_TYPE_GRAY_ALPHA, PNG_COLOR_TYPE_RGB,
+                                PNG_COLOR_TYPE_RGB_ALPHA};
+    static const int filters[] = {PNG_FILTER_NONE, PNG_FILTER_SUB, PNG_FILTER_UP, PNG_FILTER_AVG, PNG_FILTER_PAETH};
+    static const uint32_t widths[] = {1, 2, 3, 8, 61};
+    for (size_t t = 0; t < COUNT(types); t++)
+        for (int bits = 8; bits <= 16; bits += 8)
+            for (size_t f = 0; f < COUNT(filters); f++)
+                for (size_t w = 0; w < COUNT(widths); w++)
+                    check_sample(SAMPLE(widths[w], 9, .type = types[t], .bits = bits, .filters = filters[f]));
+}
+
+static void pixels_may_be_in_many_chunks(void **state) {
+    (void)state;
+    check_sample(SAMPLE(200, 100, .pieces = 64));
+    check_sample(SAMPLE(1, 1, .bits = 0));
+}
+
+/* ---- What is said about them ---- */
+
+static void texts_are_found(void **state) {
+    (void)state;
+    write_sample("a.png", SAMPLE(4, 4, .before = "one", .behind = "two"));
+    write_sample("b.png", SAMPLE(4, 4, .behind = "two"));
+    write_sample("c.png", SAMPLE(4, 4, .bits = 0));
+    struct monge_picture *a = read_good("a.png"), *b = read_good("b.png"), *c = read_good("c.png");
+    assert_string_equal(monge_picture_text(a, "monge:scene"), "one");
+    assert_string_equal(monge_picture_text(a, "Comment"), "one");
+    assert_string_equal(monge_picture_text(b, "monge:scene"), "two");
+    assert_string_equal(monge_picture_text(b, "Comment"), "two");
+    assert_null(monge_picture_text(a, "Author"));
+    assert_null(monge_picture_text(c, "Comment"));
+    monge_picture_free(a);
+    monge_picture_free(b);
+    monge_picture_free(c);
+}
+
+static void color_spaces_are_told(void **state) {
+    (void)state;
+    static const struct {
+        struct sample sample;
+        const char *name;
+    } rows[] = {
+        {{2, 2, .bits = 0}, "sRGB"},
+        {{2, 2, .srgb = true, .gamma = 45455}, "sRGB"},
+        {{2, 2, .gamma = 45455}, "sRGB"},
+        {{2, 2, .gamma = 100000}, "gamma 1"},
+        {{2, 2, .gamma = 55556}, "gamma 0.55556"},
+    };
+    for (size_t i = 0; i < COUNT(rows); i++) {
+        write_sample("a.png", &rows[i].sample);
+        struct monge_picture *picture = read_good("a.png");
+        assert_string_equal(monge_picture_color_space(picture), rows[i].name);
+        monge_picture_free(picture);
+    }
+}
+
+/* ---- What is broken ---- */
+
+enum { MOST = 4096 };
+
+struct file {
+    uint8_t byte[MOST];
+    size_t size;
+};
+
+static struct file load_file(const char *path) {
+    struct file file = {.size = 0};
+    FILE *stream = fopen(path, "rb");
+    file.size = fread(file.byte, 1, MOST, stream);
+    fclose(stream);
+    assert_in_range(file.size, 1, MOST - 1);
+    return file;
+}
+
+static void save_file(const char *path, const uint8_t *byte, size_t size) {
+    FILE *stream = fopen(path, "wb");
+    fwrite(byte, 1, size, stream);
+    fclose(stream);
+}
+
+/* Whether the file can be read and decoded; if not, a reason must have been told. */
+static bool is_good(const char *path) {
+    struct monge_diagnostics *diag = monge_diagnostics_new();
+    struct monge_picture *picture = monge_picture_read(path, diag);
+    const bool good = picture && monge_picture_decode(picture, diag);
+    assert_int_equal(monge_diagnostics_failures(diag), good ? 0 : 1);
+    monge_picture_free(picture);
+    monge_diagnostics_free(diag);
+    return good;
+}
+
+static void cut_off_files_are_refused(void **state) {
+    (void)state;
+    for (int type = 0; type < 2; type++) {
+        write_sample("a.png", SAMPLE(9, 7, .type = type ? PNG_COLOR_TYPE_PALETTE : PNG_COLOR_TYPE_RGB, .bits = 8));
+        const struct file file = load_file("a.png");
+        for (size_t size = 0; size < file.size; size++) {
+            save_file("b.png", file.byte, size);
+            if (is_good("b.png")) fail_msg("the first %zu bytes of %zu", size, file.size);
+        }
+        assert_true(is_good("a.png"));
+    }
+}
+
+static void changed_bytes_are_noticed(void **state) {
+    (void)state;
+    write_sample("a.png", SAMPLE(5, 4, .before = "text", .pieces = 40));
+    const struct file file = load_file("a.png");
+    for (size_t i = 0; i < file.size; i++)
+        for (int bit = 0; bit < 8; bit++) {
+            struct file broken = file;
+            broken.byte[i] ^= (uint8_t)(1 << bit);
+            save_file("b.png", broken.byte, broken.size);
+            if (is_good("b.png")) fail_msg("bit %d of byte %zu", bit, i);
+        }
+}
+
+/* A file made of chunks with right check sums, whatever is in them. */
+static void add_chunk(struct file *file, const char *type, const void *data, size_t size) {
+    uint8_t *at = file->byte + file->size;
+    for (int i = 0; i < 4; i++) at[i] = (uint8_t)(size >> (24 - 8 * i));
+    memcpy(at + 4, type, 4);
+    if (size > 0) memcpy(at + 8, data, size);
+    const uint32_t sum = libdeflate_crc32(0, at + 4, size + 4);
+    for (int i = 0; i < 4; i++) at[8 + size + (size_t)i] = (uint8_t)(sum >> (24 - 8 * i));
+    file->size += size + 12;
+}
+
+static struct file begin_file(uint32_t width, uint32_t height, int type, int bits) {
+    struct file file = {.byte = "\x89PNG\r\n\x1a\n", .size = 8};
+    uint8_t header[13] = {0};
+    for (int i = 0; i < 4; i++) {
+        header[i] = (uint8_t)(width >> (24 - 8 * i));
+        header[4 + i] = (uint8_t)(height >> (24 - 8 * i));
+    }
+    header[8] = (uint8_t)bits;
+    header[9] = (uint8_t)type;
+    add_chunk(&file, "IHDR", header, sizeof header);
+    return file;
+}
+
+static size_t compress_bytes(const uint8_t *bytes, size_t size, uint8_t *out, size_t room) {
+    struct libdeflate_compressor *deflater = libdeflate_alloc_compressor(6);
+    const size_t length = libdeflate_zlib_compress(deflater, bytes, size, out, room);
+    libdeflate_free_compressor(deflater);
+    assert_true(length > 0);
+    return length;
+}
+
+/* The rows, with the numbers of their filters, as the pixels of a grey picture of 3 x 2. */
+static bool rows_are_good(const uint8_t *rows, size_t size) {
+    uint8_t data[200];
+    struct file file = begin_file(3, 2, PNG_COLOR_TYPE_GRAY, 8);
+    const size_t length = compress_bytes(rows, size, data, sizeof data);
+    add_chunk(&file, "IDAT", data, length);
+    add_chunk(&file, "IEND", NULL, 0);
+    save_file("a.png", file.byte, file.size);
+    return is_good("a.png");
+}
+
+static void rows_must_be_whole_and_of_known_filters(void **state) {
+    (void)state;
+    assert_true(rows_are_good((const uint8_t[]){0, 1, 2, 3, 4, 5, 6, 7}, 8));
+    assert_false(rows_are_good((const uint8_t[]){0, 1, 2, 3, 5, 5, 6, 7}, 8));
+    assert_false(rows_are_good((const uint8_t[]){0, 1, 2, 3, 4, 5, 6}, 7));
+    assert_true(rows_are_good((const uint8_t[]){0, 1, 2, 3, 4, 5, 6, 7, 0}, 9)); /* as libpng has it */
+}
+
+static bool chunks_are_good(uint32_t width, uint32_t height, const char *types) {
+    struct file file = begin_file(width, height, PNG_COLOR_TYPE_GRAY, 8);
+    uint8_t data[200];
+    const size_t length = compress_bytes((const uint8_t[]){0, 1, 0, 2}, 4, data, sizeof data);
+    for (; *types; types += 4) {
+        const bool pixels = strncmp(types, "IDAT", 4) == 0;
+        add_chunk(&file, types, data, pixels ? length : 0);
+    }
+    save_file("a.png", file.byte, file.size);
+    return is_good("a.png");
+}
+
+static void chunks_must_be_in_order(void **state) {
+    (void)state;
+    assert_true(chunks_are_good(1, 2, "IDATIEND"));
+    assert_false(chunks_are_good(1, 2, "IEND"));
+    assert_false(chunks_are_good(1, 2, "IDAT"));
+    assert_false(chunks_are_good(1, 2, "IDATtEXtIDATIEND"));
+    assert_false(chunks_are_good(1, 2, "ABCDIDATIEND")); /* nobody knows it, and it is critical */
+}
+
+static void sizes_out_of_reach_are_refused(void **state) {
+    (void)state;
+    assert_false(chunks_are_good(0, 2, "IDATIEND"));
+    assert_false(chunks_are_good(60000, 60000, "IDATIEND"));
+    assert_false(chunks_are_good(0x7fffffff, 0x7fffffff, "IDATIEND"));
+    assert_false(chunks_are_good(0xffffffff, 1, "IDATIEND"));
+    assert_false(chunks_are_good(16384, 16384, "IDATIEND")); /* allowed, but not by so few data */
+}
+
+static void what_is_no_picture_is_refused(void **state) {
+    (void)state;
+    mkdir("folder", 0777);
+    save_file("empty.png", (const uint8_t *)"", 0);
+    save_file("text.png", (const uint8_t *)"scene: []\n", 10);
+    assert_false(is_good("folder"));
+    assert_false(is_good("empty.png"));
+    assert_false(is_good("text.png"));
+    assert_false(is_good("absent.png"));
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(all_kinds_are_read, enter_folder, leave_folder),
+        cmocka_unit_test_setup_teardown(all_filters_are_undone, enter_folder, leave_folder),
+        cmocka_unit_test_setup_teardown(pixels_may_be_in_many_chunks, enter_folder, leave_folder),
+        cmocka_unit_test_setup_teardown(texts_are_found, enter_folder, leave_folder),
+        cmocka_unit_test_setup_teardown(color_spaces_are_told, enter_folder, leave_folder),
+        cmocka_unit_test_setup_teardown(cut_off_files_are_refused, enter_folder, leave_folder),
+        cmocka_unit_test_setup_teardown(changed_bytes_are_noticed, enter_folder, leave_folder),
+        cmocka_unit_test_setup_teardown(rows_must_be_whole_and_of_known_filters, enter_folder, leave_folder),
+        cmocka_unit_test_setup_teardown(chunks_must_be_in_order, enter_folder, leave_folder),
+        cmocka_unit_test_setup_teardown(sizes_out_of_reach_are_refused, enter_folder, leave_folder),
+        cmocka_unit_test_setup_teardown(what_is_no_picture_is_refused, enter_folder, leave_folder),
+    };
+    return cmocka_run_group_tests_name("picture", tests, NULL, NULL);
+}
