@@ -4,6 +4,7 @@
 
 monge=$(realpath "${1:-build/monge}")
 [ -x "$monge" ] || { echo "golden: no program $monge" >&2; exit 1; }
+tools=$(realpath "$(dirname "$0")/../tools/ci")
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work" || exit 1
@@ -403,6 +404,34 @@ PYTHON
 fi
 exits 0 accept one --golden g; exits 0 test s/one.yaml --golden g --changed --junit junit.xml --tap
 out_has '# SKIP unchanged'; ok 'JUnit skips' grep -q '<skipped' junit.xml
+
+# ---- What is in tools/ci ----
+
+fresh 'root: ../s' 'kind: hash'
+mv g goldens
+mkdir -p .monge/build; ln -sf "$monge" .monge/build/monge
+step() { sed -n 's/^ *run: \(\.monge.*\)/\1/p' "$tools/goldens.yml" >step; last='the step of the workflow'; sh step >out 2>err; status=$?; ok "the step of the workflow is $1" [ $status -eq "$1" ]; }
+step 1; says new one; there monge-report/index.html; there monge-report/junit.xml
+exits 0 accept --golden goldens; step 0
+have python3 && python3 -c 'import yaml' 2>/dev/null && for file in "$tools"/*.yml; do
+    ok "$file is YAML" python3 -c 'import sys, yaml; assert yaml.safe_load(open(sys.argv[1]))["jobs"]' "$file"
+done
+if have git; then
+    export GIT_CONFIG_GLOBAL=/dev/null GIT_AUTHOR_NAME=a GIT_AUTHOR_EMAIL=a GIT_COMMITTER_NAME=a GIT_COMMITTER_EMAIL=a
+    rm -rf monge-test monge-report
+    git init -q . && git add s goldens && cp "$tools/pre-commit" .git/hooks/pre-commit
+    commit() { last='git commit'; MONGE=$monge git commit -qm "$2" >out 2>err; status=$?; ok "git commit is $1: $2" [ $status -eq "$1" ]; }
+    commit 0 'goldens as they are'
+    scene s/one.yaml blue
+    commit 1 'nothing to commit' # git says so itself
+    git add s; commit 1 'a scene that changes'; err_has '`'"$monge"' accept --golden goldens` takes what is meant'
+    exits 1 test --golden goldens -q; exits 0 accept --golden goldens
+    commit 1 'the golden is not in the index'
+    git add goldens; commit 0 'a scene with its golden'
+    echo '# comment' >>s/two.yaml; git add s; commit 0 'a scene that stays as it looks'
+    rm -rf .git
+fi
+rm -rf goldens
 
 # ---- What goes wrong ----
 
