@@ -5,6 +5,7 @@
 
 #include "cli/asked.h"
 #include "cli/batch.h"
+#include "cli/checkpoint.h"
 #include "cli/clock.h"
 #include "cli/interrupt.h"
 #include "cli/render_picture.h"
@@ -50,6 +51,7 @@ static bool is_unchanged(struct unit *unit) {
     const bool same = unchanged_picture(picture->output, picture->scene, asked, &work->loader.limits.load);
     free(asked);
     if (same) picture->outcome = PICTURE_UNCHANGED;
+    if (same && work_wants(work, OPTION_RESUME)) checkpoint_forget(picture->output);
     if (same && !work_wants(work, OPTION_QUIET)) say_note("unchanged %s", picture->output);
     return same;
 }
