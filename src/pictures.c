@@ -42,7 +42,9 @@ uint32_t monge_picture_height(const struct monge_picture *picture) { return pict
 unsigned monge_picture_bits(const struct monge_picture *picture) { return picture->bits; }
 unsigned monge_picture_channels(const struct monge_picture *picture) { return picture->channels; }
 const char *monge_picture_color_space(const struct monge_picture *picture) { return picture->space.name; }
-const uint8_t *monge_picture_row(const struct monge_picture *picture, uint32_t y) { return picture_row(picture, y); }
+const uint8_t *monge_picture_row(const struct monge_picture *picture, uint32_t y) {
+    return picture_row(picture, y);
+}
 
 const char *monge_picture_text(const struct monge_picture *picture, const char *key) {
     for (size_t i = 0; i < picture->text_count; i++)
@@ -68,7 +70,7 @@ bool monge_heat_map_write(struct monge_picture *a, struct monge_picture *b, cons
     const struct monge_picture *about = NULL;
     if (heat_map_write(a, b, how, path, reason, &about)) return true;
     if (about) return report_damage(&diag->list, about, reason);
-    diag_failure(&diag->list, "cannot-write", "cannot write %s: %s", is_standard(path) ? "standard output" : path,
-                 reason);
+    diag_failure(&diag->list, "cannot-write", "cannot write %s: %s",
+                 is_standard(path) ? "standard output" : path, reason);
     return false;
 }

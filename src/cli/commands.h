@@ -8,7 +8,11 @@
 #include <stdint.h>
 
 /* As diff(1) has them; of several, the highest counts. */
-enum status { STATUS_YES, STATUS_NO /* a scene is wrong, pictures differ */, STATUS_TROUBLE /* usage, files, system */ };
+enum status {
+    STATUS_YES,
+    STATUS_NO,      /* a scene is wrong, pictures differ */
+    STATUS_TROUBLE, /* usage, files, system */
+};
 
 enum command_id {
     COMMAND_NONE, /* monge itself */
@@ -101,7 +105,7 @@ struct command_row {
     const char *doc;            /* no capital, no full stop */
     const char *text[8];        /* paragraphs, up to a NULL */
     struct example examples[8]; /* up to a NULL */
-    const char *operand; /* "scene"; NULL where it needs none */
+    const char *operand;        /* "scene"; NULL where it needs none */
     enum status (*run)(const struct arguments *args);
 };
 extern const struct command_row COMMAND_TABLE[COMMANDS];

@@ -13,7 +13,9 @@ static void print_choices(FILE *out, const char *choices) {
 static bool is_choice(const struct option_row *row) {
     return row->kind == VALUE_CHOICE || row->kind == VALUE_CHOICES;
 }
-static bool is_file(const struct option_row *row) { return row->kind == VALUE_FILE || row->kind == VALUE_AREA; }
+static bool is_file(const struct option_row *row) {
+    return row->kind == VALUE_FILE || row->kind == VALUE_AREA;
+}
 
 static void print_commands(FILE *out) {
     for (enum command_id c = COMMAND_NONE + 1; c < COMMANDS; c++)

@@ -58,7 +58,8 @@ static double error_of(const struct monge_difference *d, enum monge_metric metri
 /* Each comparison is false of NaN. */
 static bool means_pass(const struct diff *diff, const struct monge_difference *d) {
     for (enum monge_metric m = 0; m < MONGE_METRICS; m++)
-        if (diff->metrics & METRIC_BIT(m) && !(error_of(d, m) <= diff->args->option[OPTION_MAX_DELTA].fraction))
+        if (diff->metrics & METRIC_BIT(m) &&
+            !(error_of(d, m) <= diff->args->option[OPTION_MAX_DELTA].fraction))
             return false;
     return true;
 }
@@ -85,7 +86,8 @@ static void print_unlike(const struct diff *diff, const struct monge_difference 
         printf("their sizes are %u x %u and %u x %u pixels", monge_picture_width(a), monge_picture_height(a),
                monge_picture_width(b), monge_picture_height(b));
     else if (d->unlike == MONGE_UNLIKE_COLOR_SPACE)
-        printf("their colour spaces are %s and %s", monge_picture_color_space(a), monge_picture_color_space(b));
+        printf("their colour spaces are %s and %s", monge_picture_color_space(a),
+               monge_picture_color_space(b));
     else
         printf("they have %u and %u bits a channel; ", monge_picture_bits(a), monge_picture_bits(b));
 }
@@ -95,8 +97,8 @@ static void print_pixels(const struct monge_difference *d) {
         printf("all of %" PRIu64 " pixels are equal", d->pixels);
         return;
     }
-    printf("%" PRIu64 " of %" PRIu64 " pixels (%.3g %%), largest difference %.4g at %u,%u", d->different, d->pixels,
-           100.0 * measure(d, MONGE_METRIC_EXACT), d->max, d->max_x, d->max_y);
+    printf("%" PRIu64 " of %" PRIu64 " pixels (%.3g %%), largest difference %.4g at %u,%u", d->different,
+           d->pixels, 100.0 * measure(d, MONGE_METRIC_EXACT), d->max, d->max_x, d->max_y);
     if (d->beyond < d->different) printf("; %" PRIu64 " beyond --max-delta", d->beyond);
 }
 
@@ -137,10 +139,11 @@ static void print_json(const struct diff *diff, const struct monge_difference *d
     printf("{\n  \"same\": %s,\n  \"why\": %s,\n", passed ? "true" : "false", find_reason(d));
     print_side("a", diff->args->operands[0], diff->a);
     print_side("b", diff->args->operands[1], diff->b);
-    printf("  \"pixels\": %" PRIu64 ",\n  \"different\": %" PRIu64 ",\n  \"beyond\": %" PRIu64 ",\n", d->pixels,
-           d->different, d->beyond);
+    printf("  \"pixels\": %" PRIu64 ",\n  \"different\": %" PRIu64 ",\n  \"beyond\": %" PRIu64 ",\n",
+           d->pixels, d->different, d->beyond);
     if (d->different > 0)
-        printf("  \"bounds\": {\"x\": %u, \"y\": %u, \"width\": %u, \"height\": %u},\n  \"largest\": {\"x\": %u, "
+        printf("  \"bounds\": {\"x\": %u, \"y\": %u, \"width\": %u, \"height\": %u},\n  \"largest\": {\"x\": "
+               "%u, "
                "\"y\": %u}",
                r->x, r->y, r->width, r->height, d->max_x, d->max_y);
     else
@@ -160,7 +163,8 @@ static void print_json(const struct diff *diff, const struct monge_difference *d
 
 static bool same_file(const char *a, const char *b) {
     struct stat of_a, of_b;
-    return stat(a, &of_a) == 0 && stat(b, &of_b) == 0 && of_a.st_dev == of_b.st_dev && of_a.st_ino == of_b.st_ino;
+    return stat(a, &of_a) == 0 && stat(b, &of_b) == 0 && of_a.st_dev == of_b.st_dev &&
+           of_a.st_ino == of_b.st_ino;
 }
 
 /* The file of --mask, or the last one of --ignore. NULL: none. */
@@ -188,7 +192,8 @@ static bool check_files(const struct arguments *args) {
         say_usage(COMMAND_DIFF, "standard input can be only one picture");
     else if (out && is_stream(out) && args->option[OPTION_DIFF_JSON].given)
         say_usage(COMMAND_DIFF, "--out -: standard output takes the JSON object");
-    else if (out && !is_stream(out) && (same_file(out, args->operands[0]) || same_file(out, args->operands[1])))
+    else if (out && !is_stream(out) &&
+             (same_file(out, args->operands[0]) || same_file(out, args->operands[1])))
         say_usage(COMMAND_DIFF, "--out %s would write over a picture that is compared", out);
     else
         return true;
@@ -205,7 +210,8 @@ static bool diff_begin(struct diff *diff, const struct arguments *args, struct m
     diff->b = monge_picture_read(args->operands[1], diag);
     if (mask) diff->mask = monge_picture_read(mask, diag);
     diff->how = (struct monge_compare){.metrics = diff->metrics,
-                                       .max_delta = limits_means(diff) ? 0.0 : args->option[OPTION_MAX_DELTA].fraction,
+                                       .max_delta =
+                                           limits_means(diff) ? 0.0 : args->option[OPTION_MAX_DELTA].fraction,
                                        .ppd = args->option[OPTION_PPD].fraction,
                                        .ignore = diff->ignore,
                                        .mask = diff->mask,
@@ -220,7 +226,8 @@ static bool diff_begin(struct diff *diff, const struct arguments *args, struct m
 }
 
 /* Writes the heat map, where one is asked for and can be. */
-static bool write_heat_map(struct diff *diff, const struct monge_difference *d, struct monge_diagnostics *diag) {
+static bool write_heat_map(struct diff *diff, const struct monge_difference *d,
+                           struct monge_diagnostics *diag) {
     const char *path = diff->args->option[OPTION_HEAT_MAP].text;
     if (!path) return true;
     if (d->unlike != MONGE_UNLIKE_SIZE) return monge_heat_map_write(diff->a, diff->b, &diff->how, path, diag);
@@ -232,7 +239,8 @@ static enum status compare(struct diff *diff, struct monge_diagnostics *diag) {
     const struct arguments *args = diff->args;
     const char *out = args->option[OPTION_HEAT_MAP].text;
     struct monge_difference d;
-    if (!diff_begin(diff, args, diag) || !monge_compare(diff->a, diff->b, &diff->how, &d, diag)) return STATUS_TROUBLE;
+    if (!diff_begin(diff, args, diag) || !monge_compare(diff->a, diff->b, &diff->how, &d, diag))
+        return STATUS_TROUBLE;
     const bool passed = passes(diff, &d);
     if (args->option[OPTION_DIFF_JSON].given)
         print_json(diff, &d, passed);

@@ -104,7 +104,8 @@ static bool read_amount(const char *text, struct option_value *value) {
     if (length >= sizeof number) return false;
     memcpy(number, text, length + 1);
     if (!value->percent)
-        return number[strspn(number, "0123456789")] == '\0' && read_fraction(number, 0, 1e18, &value->fraction);
+        return number[strspn(number, "0123456789")] == '\0' &&
+               read_fraction(number, 0, 1e18, &value->fraction);
     number[length - 1] = '\0';
     return read_fraction(number, 0, 100, &value->fraction);
 }
@@ -164,7 +165,9 @@ static void describe_value(const struct option_row *row, char *text, size_t size
     case VALUE_CHOICE:
     case VALUE_CHOICES: describe_choice(row->value, text, size); break;
     case VALUE_AMOUNT: snprintf(text, size, "a whole number, or 0 to 100 and %%"); break;
-    case VALUE_AREA: snprintf(text, size, "X,Y,W,H like 0,0,320,240, W and H from %u, or a PNG file", row->low); break;
+    case VALUE_AREA:
+        snprintf(text, size, "X,Y,W,H like 0,0,320,240, W and H from %u, or a PNG file", row->low);
+        break;
     case VALUE_FRAMES:
         snprintf(text, size, "N, A-B, A- or all, perhaps with :STEP, from %u", row->low);
         break;

@@ -9,8 +9,8 @@ struct option_value {
     const char *text; /* as the user wrote it; NULL for a switch */
     uint32_t number
         [4]; /* of a whole number, a size or a region, in the order of writing; of frames: first, last (0: open), step */
-    double fraction; /* also of an amount */
-    unsigned choice; /* which of the words of the table, from 0 */
+    double fraction;  /* also of an amount */
+    unsigned choice;  /* which of the words of the table, from 0 */
     unsigned choices; /* a bit for each that was given, in any of them */
     bool percent;     /* of an amount */
 };
