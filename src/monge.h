@@ -424,9 +424,9 @@ struct monge_compare {
     unsigned metrics;                  /* 1 << MONGE_METRIC_SSIM, 1 << MONGE_METRIC_FLIP: those as well */
     double max_delta;                  /* a pixel whose channels differ by no more is not `beyond`; 0 .. 1 */
     double ppd;                        /* FLIP: pixels per degree of sight; 0: MONGE_DEFAULT_PPD */
-    const struct monge_region *ignore; /* pixels that count as equal; may reach over the picture's edge */
+    const struct monge_region *ignore; /* pixels that are left out; may reach over the picture's edge */
     size_t ignore_count;
-    struct monge_picture *mask; /* of the same size: what is not black and not transparent in it is ignored; or NULL */
+    struct monge_picture *mask; /* left out too: what is neither black nor transparent in it; NULL: none */
     unsigned threads;           /* 0: one for each processor */
 };
 #define MONGE_DEFAULT_PPD 67.0

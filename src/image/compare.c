@@ -83,8 +83,8 @@ static bool check_mask(const struct monge_picture *a, const struct monge_picture
                        char reason[PICTURE_REASON_SIZE], const struct monge_picture **about) {
     if (!mask || (mask->width == a->width && mask->height == a->height)) return true;
     *about = mask;
-    snprintf(reason, PICTURE_REASON_SIZE, "it is %u x %u pixels, and what it should mask %u x %u", mask->width,
-             mask->height, a->width, a->height);
+    snprintf(reason, PICTURE_REASON_SIZE, "it is %u x %u pixels, and what it should mask %u x %u",
+             mask->width, mask->height, a->width, a->height);
     return false;
 }
 
@@ -128,10 +128,12 @@ static void tell_same(const struct comparison *c, struct monge_difference *out) 
     out->psnr = INFINITY;
 }
 
-static bool compare_decoded(struct comparison *c, const struct monge_compare *how, struct monge_difference *out) {
+static bool compare_decoded(struct comparison *c, const struct monge_compare *how,
+                            struct monge_difference *out) {
     compare_pixels(c, how->max_delta, out);
     out->same = out->unlike == MONGE_UNLIKE_NOTHING && out->different == 0;
-    if (how->metrics >> MONGE_METRIC_SSIM & 1 && out->different > 0 && !ssim_mean(c, &out->ssim)) return false;
+    if (how->metrics >> MONGE_METRIC_SSIM & 1 && out->different > 0 && !ssim_mean(c, &out->ssim))
+        return false;
     if (how->metrics >> MONGE_METRIC_FLIP & 1 && out->different > 0 &&
         !flip_mean(c, how->ppd > 0.0 ? how->ppd : MONGE_DEFAULT_PPD, NULL, &out->flip))
         return false;

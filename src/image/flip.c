@@ -188,9 +188,7 @@ INLINE void add_pair(vector sum[4], float weight, const float *a, const float *b
     EACH(v) sum[v / LANES] += weight * (AT(a + v) + AT(b + v));
 }
 
-INLINE void store_sum(float *out, const vector sum[4]) {
-    EACH(v) SET(out + v) = sum[v / LANES];
-}
+INLINE void store_sum(float *out, const vector sum[4]) { EACH(v) SET(out + v) = sum[v / LANES]; }
 
 INLINE void even_along_x(const struct flip_filter *filter, const float *row, float *out) {
     for (int x = 0; x < TILE_WIDTH; x += BLOCK) {
@@ -229,7 +227,8 @@ INLINE void features_along_x(const struct flip_filters *f, const float *row, flo
     }
 }
 
-INLINE void features_along_y(const struct flip_filters *f, const float *const *middle, float *edge, float *point) {
+INLINE void features_along_y(const struct flip_filters *f, const float *const *middle, float *edge,
+                             float *point) {
     for (int x = 0; x < TILE_WIDTH; x += LANES) {
         vector points = f->point.weight[0] * AT(middle[0] + x), edges = {0};
         for (int k = 1; k <= f->blur.radius; k++) {
@@ -267,9 +266,11 @@ INLINE void enter_row(const struct flip *f, struct tile *tile, uint32_t left, in
 }
 
 /* The rows of a plane around row y, from which on they may be counted up and down. */
-INLINE const float *const *find_ring(const struct flip *f, struct tile *tile, int which, int plane, int64_t y) {
+INLINE const float *const *find_ring(const struct flip *f, struct tile *tile, int which, int plane,
+                                     int64_t y) {
     const int radius = f->filters.radius, size = 2 * radius + 1;
-    for (int i = 0; i < size; i++) tile->ring[i] = tile_row(tile, radius, which, plane, (int)((y + i) % size));
+    for (int i = 0; i < size; i++)
+        tile->ring[i] = tile_row(tile, radius, which, plane, (int)((y + i) % size));
     return tile->ring + radius;
 }
 
@@ -334,10 +335,13 @@ INLINE struct lab find_lab(const struct flip *f, float (*plane)[TILE_WIDTH], int
     white[1] = AT(plane[LUMINANCE] + at);
     white[0] = white[1] + AT(plane[CHROMA_1] + at);
     white[2] = white[1] - (AT(plane[CHROMA_2] + at) + AT(plane[CHROMA_3] + at));
-    for (int i = 0; i < 3; i++) rgb[i] = limit_01(in[i][0] * white[0] + in[i][1] * white[1] + in[i][2] * white[2]);
-    for (int i = 0; i < 3; i++) white[i] = lab_curve_of(out[i][0] * rgb[0] + out[i][1] * rgb[1] + out[i][2] * rgb[2]);
+    for (int i = 0; i < 3; i++)
+        rgb[i] = limit_01(in[i][0] * white[0] + in[i][1] * white[1] + in[i][2] * white[2]);
+    for (int i = 0; i < 3; i++)
+        white[i] = lab_curve_of(out[i][0] * rgb[0] + out[i][1] * rgb[1] + out[i][2] * rgb[2]);
     const vector l = 116.0f * white[1] - 16.0f;
-    return (struct lab){l, 0.01f * l * (500.0f * (white[0] - white[1])), 0.01f * l * (200.0f * (white[1] - white[2]))};
+    return (struct lab){l, 0.01f * l * (500.0f * (white[0] - white[1])),
+                        0.01f * l * (200.0f * (white[1] - white[2]))};
 }
 
 /* How long the vector of a feature along x and along y is. */
@@ -350,8 +354,10 @@ INLINE void find_differences(const struct flip *f, struct tile *tile) {
         const struct lab a = find_lab(f, pa, x), b = find_lab(f, pb, x);
         const vector da = a.a - b.a, db = a.b - b.b;
         SET(tile->error + x) = absolute(a.l - b.l) + root(da * da + db * db);
-        const vector edge = absolute(length_of(pa[EDGE_X] + x, pa[EDGE_Y] + x) - length_of(pb[EDGE_X] + x, pb[EDGE_Y] + x));
-        const vector point = absolute(length_of(pa[POINT_X] + x, pa[POINT_Y] + x) - length_of(pb[POINT_X] + x, pb[POINT_Y] + x));
+        const vector edge =
+            absolute(length_of(pa[EDGE_X] + x, pa[EDGE_Y] + x) - length_of(pb[EDGE_X] + x, pb[EDGE_Y] + x));
+        const vector point = absolute(length_of(pa[POINT_X] + x, pa[POINT_Y] + x) -
+                                      length_of(pb[POINT_X] + x, pb[POINT_Y] + x));
         SET(tile->exponent + x) = 1.0f - root(choose(edge > point, edge, point) * 0.70710678f);
     }
 }
@@ -389,7 +395,8 @@ static double take_row(const struct flip *f, const struct tile *tile, uint32_t l
 INLINE void do_tile(const struct flip *f, struct tile *tile, uint32_t number) {
     const uint32_t left = number % f->columns * TILE_WIDTH, top = number / f->columns * TILE_HEIGHT;
     const uint32_t height = f->comparison->a->height;
-    const int64_t radius = f->filters.radius, bottom = top + TILE_HEIGHT < height ? top + TILE_HEIGHT : height;
+    const int64_t radius = f->filters.radius,
+                  bottom = top + TILE_HEIGHT < height ? top + TILE_HEIGHT : height;
     double sum = 0.0;
     for (int64_t y = top - radius; y < top + radius; y++) enter_row(f, tile, left, y);
     for (int64_t y = top; y < bottom; y++) {
@@ -406,12 +413,15 @@ INLINE void do_tile(const struct flip *f, struct tile *tile, uint32_t number) {
 
 /* The same once more for machines with longer vectors, with the same results. */
 #if defined __x86_64__
-__attribute__((target("avx2"))) static void do_tile_avx2(const struct flip *f, struct tile *tile, uint32_t number) {
+__attribute__((target("avx2"))) static void do_tile_avx2(const struct flip *f, struct tile *tile,
+                                                         uint32_t number) {
     do_tile(f, tile, number);
 }
 #endif
 
-static void do_tile_plain(const struct flip *f, struct tile *tile, uint32_t number) { do_tile(f, tile, number); }
+static void do_tile_plain(const struct flip *f, struct tile *tile, uint32_t number) {
+    do_tile(f, tile, number);
+}
 
 static void do_tiles(void *context, unsigned thread) {
     (void)thread;

@@ -13,10 +13,10 @@ struct flip_filter {
 };
 
 struct flip_filters {
-    struct flip_filter luma, red_green;       /* of contrast sensitivity: equal along x and y */
-    struct flip_filter blue_yellow[2];        /* a sum of two */
-    struct flip_filter blur, edge, point;     /* of features: a Gaussian and its derivatives; edge is odd */
-    int radius;                               /* the largest */
+    struct flip_filter luma, red_green;   /* of contrast sensitivity: equal along x and y */
+    struct flip_filter blue_yellow[2];    /* a sum of two */
+    struct flip_filter blur, edge, point; /* of features: a Gaussian and its derivatives; edge is odd */
+    int radius;                           /* the largest */
 };
 
 /* ppd is above 0 and at most FLIP_MAX_PPD. */

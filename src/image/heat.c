@@ -120,7 +120,8 @@ static bool make_map(const struct comparison *c, const struct monge_compare *how
     double mean;
     if (!(how->metrics >> MONGE_METRIC_FLIP & 1)) return true;
     *map = calloc((size_t)c->a->width * c->a->height, sizeof **map);
-    return *map && (c->pixels == 0 || flip_mean(c, how->ppd > 0.0 ? how->ppd : MONGE_DEFAULT_PPD, *map, &mean));
+    return *map &&
+           (c->pixels == 0 || flip_mean(c, how->ppd > 0.0 ? how->ppd : MONGE_DEFAULT_PPD, *map, &mean));
 }
 
 bool heat_map_write(struct monge_picture *a, struct monge_picture *b, const struct monge_compare *how,

@@ -92,7 +92,8 @@ static bool check_chunks(struct monge_picture *picture, char reason[PICTURE_REAS
         const uint8_t *chunk = picture->file + at;
         if (!check_chunk(chunk, picture->file_size - at, reason)) return false;
         if (chunk_is(chunk, "IDAT")) {
-            if (data->last && data->last != at) return fail(reason, "it is damaged: its pixels are in pieces");
+            if (data->last && data->last != at)
+                return fail(reason, "it is damaged: its pixels are in pieces");
             if (!data->last) data->first = at;
             data->bytes += read_big(chunk);
             data->last = at + read_big(chunk) + CHUNK_FRAME;
@@ -185,7 +186,8 @@ static bool take_profile(struct color_space *space, struct reader *r) {
 }
 
 static bool take_primaries(int32_t xy[8], struct reader *r) {
-    return png_get_cHRM_fixed(r->png, r->info, &xy[0], &xy[1], &xy[2], &xy[3], &xy[4], &xy[5], &xy[6], &xy[7]);
+    return png_get_cHRM_fixed(r->png, r->info, &xy[0], &xy[1], &xy[2], &xy[3], &xy[4], &xy[5], &xy[6],
+                              &xy[7]);
 }
 
 /* What programs write beside an sRGB chunk, or for want of one: PNG specification, 11.3.2.5. */
@@ -280,7 +282,8 @@ static bool read_rows(struct reader *r, struct monge_picture *picture) {
     png_set_expand(r->png);
     const int passes = png_set_interlace_handling(r->png);
     png_read_update_info(r->png, r->info);
-    if (png_get_rowbytes(r->png, r->info) != picture->stride) png_error(r->png, "its rows are of another size");
+    if (png_get_rowbytes(r->png, r->info) != picture->stride)
+        png_error(r->png, "its rows are of another size");
     for (int pass = 0; pass < passes; pass++)
         for (uint32_t y = 0; y < picture->height; y++)
             png_read_row(r->png, picture->rows + y * picture->stride, NULL);

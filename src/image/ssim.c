@@ -32,7 +32,8 @@ static double luma_at(const struct monge_picture *picture, uint32_t x, uint32_t 
     const uint8_t *at = picture_row(picture, y) + x * picture_pixel_size(picture);
     const unsigned bits = picture->bits, bytes = bits / 8;
     if (picture->channels < 3) return number_at(at, bits);
-    return 0.299 * number_at(at, bits) + 0.587 * number_at(at + bytes, bits) + 0.114 * number_at(at + 2 * bytes, bits);
+    return 0.299 * number_at(at, bits) + 0.587 * number_at(at + bytes, bits) +
+           0.114 * number_at(at + 2 * bytes, bits);
 }
 
 static uint32_t clamp(int64_t value, uint32_t size) {
@@ -79,7 +80,8 @@ static void finish_row(const struct ssim *s, uint32_t y, double *const rows[WIND
         double mean[MEANS] = {0};
         if (ignored && ignored[x]) continue;
         for (uint32_t k = 0; k < WINDOW; k++)
-            for (int m = 0; m < MEANS; m++) mean[m] += s->weight[k] * rows[(y + k) % WINDOW][(size_t)m * width + x];
+            for (int m = 0; m < MEANS; m++)
+                mean[m] += s->weight[k] * rows[(y + k) % WINDOW][(size_t)m * width + x];
         s->sums[y] += similarity(mean);
         s->counts[y]++;
     }
@@ -88,7 +90,8 @@ static void finish_row(const struct ssim *s, uint32_t y, double *const rows[WIND
 static void do_band(const struct ssim *s, uint32_t band, double *luma, double *const rows[WINDOW]) {
     const uint32_t height = s->comparison->a->height - s->margin_y;
     const uint32_t top = s->margin_y + band, bottom = top + BAND < height ? top + BAND : height;
-    for (uint32_t i = top; i < top + WINDOW - 1; i++) average_row(s, (int64_t)i - RADIUS, luma, rows[i % WINDOW]);
+    for (uint32_t i = top; i < top + WINDOW - 1; i++)
+        average_row(s, (int64_t)i - RADIUS, luma, rows[i % WINDOW]);
     for (uint32_t y = top; y < bottom; y++) {
         const uint32_t last = y + WINDOW - 1;
         average_row(s, (int64_t)last - RADIUS, luma, rows[last % WINDOW]);
