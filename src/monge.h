@@ -426,11 +426,10 @@ struct monge_compare {
     unsigned metrics;                  /* 1 << MONGE_METRIC_SSIM, 1 << MONGE_METRIC_FLIP: those as well */
     double max_delta;                  /* a pixel whose channels differ by no more is not `beyond`; 0 .. 1 */
     double ppd;                        /* FLIP: pixels per degree of sight; 0: MONGE_DEFAULT_PPD */
-    const struct monge_region *ignore; /* pixels that count as equal; may reach over the picture's edge */
+    const struct monge_region *ignore; /* pixels that are left out; may reach over the picture's edge */
     size_t ignore_count;
-    struct monge_picture
-        *mask;        /* of the same size: what is not black and not transparent in it is ignored; or NULL */
-    unsigned threads; /* 0: one for each processor */
+    struct monge_picture *mask; /* left out too: what is neither black nor transparent in it; NULL: none */
+    unsigned threads;           /* 0: one for each processor */
 };
 #define MONGE_DEFAULT_PPD 67.0
 
@@ -555,8 +554,8 @@ struct monge_change {
 };
 
 /* Tells what changed from the older picture to the newer, of which the pixels differ that monge_compare counts as
- * `beyond`. Both sets of layers have the layer object and are of the size of the pictures; of the other layers those
- * count that both have. Objects are the same by their names; those without one, or with one name for several, by kind
+ * `beyond`. Both sets of layers have the layer object and are of the rendering of their pictures; of the other layers
+ * those count that both have. Objects are the same by their names; those without one, or with one name for several, by kind
  * and by what is seen at the same place, then by their order. The first `room` changes, those of most pixels first;
  * *count is how many there are. They point into the layers. False: diag says why, as a failure. */
 bool monge_changes(struct monge_picture *older, const struct monge_layers *older_layers,
@@ -564,7 +563,8 @@ bool monge_changes(struct monge_picture *older, const struct monge_layers *older
                    const struct monge_compare *how, struct monge_change *changes, size_t room, size_t *count,
                    struct monge_diagnostics *diag);
 
-/* The change as a text: `object "lid" (scene.yaml:41): geometry moved`. As snprintf, with its result. */
+/* The change as a text: `object "lid" (scene.yaml:41): geometry moved`. As snprintf, with its result; no control
+ * characters are in it. */
 size_t monge_change_text(const struct monge_change *change, char *text, size_t size);
 
 /* What a picture was made of, by the text chunks of its file; NULL: it does not tell. */

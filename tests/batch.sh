@@ -234,8 +234,13 @@ for signal in KILL TERM; do
     ok "$signal leaves a checkpoint" kept $signal "${long[@]}" --threads 1
     cp .long.png.partial saved
     exits 0 render long.yaml "${long[@]}" --threads 3 --resume; err_has 'resumed long.png  '; same long.png whole.png; missing .long.png.partial
-    exits 0 render long.yaml "${long[@]}" --resume; err_has 'unchanged long.png'
+    cp saved .long.png.partial # as of a run that was stopped when the picture was in place
+    exits 0 render long.yaml "${long[@]}" --resume; err_has 'unchanged long.png'; missing .long.png.partial
 done
+last='several, stopped'; for i in 1 2 3 4; do cp long.yaml stop-$i.yaml; done
+"$monge" render stop-*.yaml -j 3 -q "${long[@]}" -o stopped/ 2>err & pid=$!
+until [ -d stopped ]; do sleep 0.01; done; sleep 0.1; kill -TERM $pid; wait $pid; status=$?
+ok "the signal ends it" [ $status -eq 143 ]; ok "nothing is left" [ -z "$(ls -A stopped)" ]
 part() { run render long.yaml --samples 1 --size 64x48 --resume -o "${1:-long.png}"; }
 rm long.png; cp saved .long.png.partial; part; err_lacks resumed; missing .long.png.partial
 run render --samples 1 --size 64x48 -q long.yaml -o short.png; same long.png short.png

@@ -15,8 +15,8 @@ static void powers_by_1(size_t count, const float *base, const float *exponent, 
 /* sleef.h has it only for those who compile for AVX altogether. */
 __attribute__((target("avx"))) __m256 Sleef_cinz_powf8_u10avx(__m256, __m256);
 
-__attribute__((target("avx"))) static size_t powers_by_8(size_t count, const float *base, const float *exponent,
-                                                         float *out) {
+__attribute__((target("avx"))) static size_t powers_by_8(size_t count, const float *base,
+                                                         const float *exponent, float *out) {
     size_t i = 0;
     for (; i + 8 <= count; i += 8)
         _mm256_storeu_ps(out + i,

@@ -99,7 +99,7 @@ size_t batch_run(const struct batch *batch) {
     unsigned started = 0;
     if (!pool.units || !threads) {
         say_error("out of memory");
-        exit(2);
+        exit(STATUS_TROUBLE);
     }
     while (started + 1 < batch->jobs && pthread_create(&threads[started], NULL, run_units, &pool) == 0)
         started++;

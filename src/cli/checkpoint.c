@@ -270,6 +270,16 @@ static void say_taken(const struct checkpoint *cp) {
              cp->path);
 }
 
+void checkpoint_forget(const char *output) {
+    char *path = path_of(output);
+    const int fd = open_locked(path, 0);
+    if (fd >= 0) {
+        unlink(path);
+        close(fd);
+    }
+    free(path);
+}
+
 static void free_checkpoint(struct checkpoint *cp) {
     if (cp->fd >= 0) close(cp->fd);
     pthread_mutex_destroy(&cp->lock);

@@ -24,6 +24,9 @@ const struct monge_tiles *checkpoint_tiles(const struct checkpoint *checkpoint);
 /* Pixels that were known when it was opened. */
 uint64_t checkpoint_pixels(const struct checkpoint *checkpoint);
 
+/* Removes what there may be for a picture that is complete: its run was stopped before it could do so. */
+void checkpoint_forget(const char *output);
+
 /* Done with it, with the reason told where something could not be kept; `complete`: the picture is in its place, so
  * that the file goes. NULL is allowed. */
 void checkpoint_close(struct checkpoint *checkpoint, bool complete);

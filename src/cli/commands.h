@@ -10,8 +10,8 @@
 /* As diff(1) has them; of several, the highest counts. */
 enum status {
     STATUS_YES,
-    STATUS_NO /* a scene is wrong, pictures differ */,
-    STATUS_TROUBLE /* usage, files, system */
+    STATUS_NO,      /* a scene is wrong, pictures differ */
+    STATUS_TROUBLE, /* usage, files, system */
 };
 
 enum command_id {

@@ -111,13 +111,14 @@ static size_t picture_length(const char *file) {
 /* Whether it is NAME.object.png or so, beside a NAME.png. */
 static bool is_layer(const char *path) {
     for (enum monge_layer layer = 0; layer < MONGE_LAYERS; layer++) {
-        char *ending = aov_path(layer, ".png"); /* of no name: what all of them end in */
+        char *file = aov_path(layer, "x.png");
+        const char *ending = file + 1; /* what all of them end in */
         const size_t all = strlen(path), length = strlen(ending);
         const bool ends = all > length && strcmp(path + all - length, ending) == 0;
         char *picture = ends ? say_text("%.*s.png", (int)(all - length), path) : NULL;
         const bool found = picture && golden_is_file(picture);
         free(picture);
-        free(ending);
+        free(file);
         if (found) return true;
     }
     return false;

@@ -101,11 +101,19 @@ static bool find_at(struct golden_case *c, const struct golden_line *line, const
     return false;
 }
 
+/* A golden that is both a line and a picture must be the same in both. */
+static bool halves_agree(const struct golden_run *run, struct golden_case *c) {
+    const struct golden_line *line = golden_lock_find(&run->lock, c->name);
+    if (c->kind != MONGE_GOLDEN_BOTH || strcmp(line->stamp.pixels, c->old.pixels) == 0) return true;
+    golden_add_message(c, "its line in %s is not that of the picture %s", run->lock.path, c->golden_path);
+    return miss(c);
+}
+
 bool golden_find(const struct golden_run *run, struct golden_case *c) {
     char *path = golden_path(run->folder, c->name, ".png");
     const bool found = find_at(c, golden_lock_find(&run->lock, c->name), path, run->lock.path);
     free(path);
-    return found;
+    return found && halves_agree(run, c);
 }
 
 /* ---- Without rendering ---- */
@@ -171,14 +179,6 @@ static void judge_picture(struct golden_case *c) {
         miss(c);
 }
 
-/* A golden that is both a line and a picture must be the same in both. */
-static bool halves_agree(const struct golden_run *run, struct golden_case *c) {
-    const struct golden_line *line = golden_lock_find(&run->lock, c->name);
-    if (c->kind != MONGE_GOLDEN_BOTH || strcmp(line->stamp.pixels, c->old.pixels) == 0) return true;
-    golden_add_message(c, "its line in %s is not that of the picture %s", run->lock.path, c->golden_path);
-    return miss(c);
-}
-
 static void judge_hash(const struct golden_run *run, struct golden_case *c) {
     c->status = GOLDEN_CHANGED;
     if (c->tolerance_text)
@@ -234,12 +234,12 @@ static void drop_new(const struct golden_run *run, struct golden_case *c) {
 
 void golden_judge(const struct golden_run *run, struct golden_case *c, const struct monge_film *film,
                   bool has_golden) {
-    const bool hash = c->kind == MONGE_GOLDEN_HASH, agree = !has_golden || halves_agree(run, c);
-    if (has_golden && agree && is_exact(c)) {
+    const bool hash = c->kind == MONGE_GOLDEN_HASH;
+    if (has_golden && is_exact(c)) {
         c->status = GOLDEN_SAME;
         return;
     }
-    if (!write_new(run, c, film) || !has_golden || !agree) return;
+    if (!write_new(run, c, film) || !has_golden) return;
     if (hash)
         judge_hash(run, c);
     else

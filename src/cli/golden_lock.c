@@ -51,12 +51,22 @@ static bool unescape(char *text, bool blanks) {
 
 /* ---- One line ---- */
 
+/* Digits at *text, which moves behind them. */
+static uint32_t read_whole(const char **text) {
+    uint32_t value = 0;
+    for (; (unsigned)(**text - '0') < 10 && value < 1u << 24; ++*text)
+        value = 10 * value + (uint32_t)(**text - '0');
+    return value;
+}
+
 static bool read_size(const char *text, struct golden_stamp *stamp) {
-    int end = 0;
-    if (strspn(text, "0123456789x") != strlen(text) || strlen(text) > 20) return false;
-    const int count = sscanf(text, "%ux%ux%u%n", &stamp->width, &stamp->height, &stamp->bits, &end);
-    return count == 3 && !text[end] && stamp->width >= 1 && stamp->width <= MONGE_MAX_SIDE &&
-           stamp->height >= 1 && stamp->height <= MONGE_MAX_SIDE && (stamp->bits == 8 || stamp->bits == 16);
+    stamp->width = read_whole(&text);
+    if (*text++ != 'x') return false;
+    stamp->height = read_whole(&text);
+    if (*text++ != 'x') return false;
+    stamp->bits = read_whole(&text);
+    return !*text && stamp->width >= 1 && stamp->width <= MONGE_MAX_SIDE && stamp->height >= 1 &&
+           stamp->height <= MONGE_MAX_SIDE && (stamp->bits == 8 || stamp->bits == 16);
 }
 
 static bool read_hash(const char *text, char hash[MONGE_HASH_SIZE]) {

@@ -5,6 +5,7 @@
 
 #include "cli/asked.h"
 #include "cli/batch.h"
+#include "cli/checkpoint.h"
 #include "cli/clock.h"
 #include "cli/interrupt.h"
 #include "cli/render_picture.h"
@@ -41,16 +42,16 @@ static enum status fail_output(struct unit *unit, enum status status) {
     return end_picture(unit, status);
 }
 
-/* Whether the last picture is there already. */
-static bool is_unchanged(struct unit *unit) {
-    struct work *work = unit->work;
-    struct picture *picture = &unit->pictures[unit->count - 1];
+/* Whether it is asked for, and right, that the picture stays as it is. */
+static bool is_unchanged(const struct unit *unit, const char *path, unsigned frame) {
+    const struct work *work = unit->work;
+    const struct output *output = unit->output;
     if (!work_wants(work, OPTION_SKIP_UNCHANGED) && !work_wants(work, OPTION_RESUME)) return false;
-    char *asked = asked_text(work->args.option, picture->defines, picture->define_count, picture->frame);
-    const bool same = unchanged_picture(picture->output, picture->scene, asked, &work->loader.limits.load);
+    char *asked = asked_text(work->args.option, output->defines, work->loader.sweep.count, frame);
+    const bool same = unchanged_picture(path, output->scene, asked, &work->loader.limits.load);
     free(asked);
-    if (same) picture->outcome = PICTURE_UNCHANGED;
-    if (same && !work_wants(work, OPTION_QUIET)) say_note("unchanged %s", picture->output);
+    if (same && work_wants(work, OPTION_RESUME)) checkpoint_forget(path);
+    if (same && !work_wants(work, OPTION_QUIET)) say_note("unchanged %s", path);
     return same;
 }
 
@@ -60,9 +61,12 @@ static bool is_unchanged(struct unit *unit) {
 static enum status render_frame(struct unit *unit, struct load *load, unsigned frame, unsigned *at,
                                 double begun) {
     const struct work *work = unit->work;
-    const char *path = unit->pictures[unit->count - 1].output;
-    if (work->plan.frames && !plan_reach(&work->plan, path)) return STATUS_TROUBLE;
-    if (work->plan.frames && is_unchanged(unit)) return STATUS_YES;
+    struct picture *picture = &unit->pictures[unit->count - 1];
+    if (work->plan.frames && !plan_reach(&work->plan, picture->output)) return STATUS_TROUBLE;
+    if (work->plan.frames && is_unchanged(unit, picture->output, frame)) {
+        picture->outcome = PICTURE_UNCHANGED;
+        return STATUS_YES;
+    }
     const enum status status = frame == *at ? STATUS_YES : load_frame(&unit->work->loader, load, frame);
     if (status == STATUS_YES) {
         *at = frame;
@@ -102,18 +106,16 @@ static enum status render_load(struct unit *unit, struct load *load, double begu
 
 /* ---- Units ---- */
 
-/* Without --frames, all that can be known before the scene is loaded. */
+/* Without --frames, all that can be known before the scene is loaded: that its picture cannot be written, or need
+ * not be. */
 static bool is_settled(struct unit *unit, enum status *status) {
+    const char *path = unit->output->path;
     if (unit->work->plan.frames) return false;
-    add_picture(unit, unit->output->path, 0);
-    const bool reached = plan_reach(&unit->work->plan, unit->output->path);
-    *status = reached ? STATUS_YES : STATUS_TROUBLE;
-    if (!reached || is_unchanged(unit)) {
-        end_picture(unit, *status);
-        return true;
-    }
-    free(unit->pictures[--unit->count].output);
-    return false;
+    const bool reached = plan_reach(&unit->work->plan, path);
+    if (reached && !is_unchanged(unit, path, 0)) return false;
+    add_picture(unit, path, 0)->outcome = reached ? PICTURE_UNCHANGED : PICTURE_FAILED;
+    *status = end_picture(unit, reached ? STATUS_YES : STATUS_TROUBLE);
+    return true;
 }
 
 static enum status render_output(struct unit *unit) {

@@ -110,7 +110,7 @@ static void tell_resumed(const struct unit *unit, const struct picture *picture,
 }
 
 static void note_hashes(const struct unit *unit, const struct monge_film *film, struct picture *picture) {
-    if (!unit->work->log.path) return;
+    if (!unit->work->log.path && !work_wants(unit->work, OPTION_STATS)) return;
     monge_film_scene_hash(film, picture->scene_hash);
     if (!monge_film_hash(film, picture->pixel_hash)) *picture->pixel_hash = '\0';
 }

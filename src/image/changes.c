@@ -508,10 +508,21 @@ static const char *const kind_words[MONGE_CHANGES] = {
     [MONGE_CHANGE_SHADOW] = "shadow changed",   [MONGE_CHANGE_SHADING] = "shading changed, geometry equal",
 };
 
+/* Spaces for control characters, those of two bytes too: names come from scenes, and this goes to terminals. */
+static void make_harmless(char *text) {
+    for (unsigned char *c = (unsigned char *)text; *c; c++) {
+        const bool wide = c[0] == 0xc2 && c[1] >= 0x80 && c[1] < 0xa0;
+        if (wide) c[1] = ' ';
+        if (wide || *c < 0x20 || *c == 0x7f) *c = ' ';
+    }
+}
+
 size_t monge_change_text(const struct monge_change *change, char *text, size_t size) {
     const struct monge_entry *o = change->object;
     if (!o) return (size_t)snprintf(text, size, "background: colour changed");
-    return (size_t)snprintf(text, size, "%s%s%s (%s:%u): %s", o->name ? "object \"" : o->kind,
-                            o->name ? o->name : "", o->name ? "\"" : "", o->file ? o->file : "", o->line,
-                            kind_words[change->kind]);
+    const size_t length = (size_t)snprintf(text, size, "%s%s%s (%s:%u): %s", o->name ? "object \"" : o->kind,
+                                           o->name ? o->name : "", o->name ? "\"" : "",
+                                           o->file ? o->file : "", o->line, kind_words[change->kind]);
+    if (size > 0) make_harmless(text);
+    return length;
 }

@@ -89,6 +89,36 @@ INLINE void count_numbers(const struct job *job, struct tally *t, uint32_t x, ui
     if (largest > 0) count_pixel(t, largest, job->limit, x, y);
 }
 
+/* The differences of BLOCK pixels of 8 bits; what is ignored has none. */
+INLINE void subtract_block(const uint8_t *a, const uint8_t *b, const uint8_t *ignored, size_t channels,
+                           uint8_t *differences) {
+    for (size_t i = 0; i < BLOCK * channels; i++)
+        differences[i] = (uint8_t)(a[i] > b[i] ? a[i] - b[i] : b[i] - a[i]);
+    for (size_t x = 0; ignored && x < BLOCK; x++)
+        if (ignored[x]) memset(differences + x * channels, 0, channels);
+}
+
+/* BLOCK pixels of 8 bits from column `begin` on. The number of channels is known to the compiler. */
+INLINE void count_bytes(const struct job *job, struct tally *t, uint32_t begin, uint32_t y, const uint8_t *a,
+                        const uint8_t *b, const uint8_t *ignored, size_t channels) {
+    uint8_t differences[BLOCK * 4], largest[BLOCK];
+    uint32_t sum = 0, squares = 0;
+    subtract_block(a, b, ignored, channels, differences);
+    for (size_t i = 0; i < BLOCK * channels; i++) {
+        sum += differences[i];
+        squares += (uint32_t)differences[i] * differences[i];
+    }
+    t->sum += sum;
+    t->squares += squares;
+    for (size_t x = 0; x < BLOCK; x++) {
+        largest[x] = 0;
+        for (size_t c = 0; c < channels; c++)
+            if (differences[x * channels + c] > largest[x]) largest[x] = differences[x * channels + c];
+    }
+    for (uint32_t x = 0; x < BLOCK; x++)
+        if (largest[x] > 0) count_pixel(t, largest[x], job->limit, begin + x, y);
+}
+
 /* A row of pictures of one layout: most of the pixels are equal, byte by byte. channels and bits are known to the
  * compiler, for those that are common. */
 INLINE void count_alike(const struct job *job, struct tally *t, uint32_t y, unsigned channels,
@@ -100,6 +130,11 @@ INLINE void count_alike(const struct job *job, struct tally *t, uint32_t y, unsi
     for (uint32_t begin = 0; begin < width; begin += BLOCK) {
         const uint32_t end = width - begin < BLOCK ? width : begin + BLOCK;
         if (memcmp(a + begin * size, b + begin * size, (end - begin) * size) == 0) continue;
+        if (bits == 8 && end - begin == BLOCK) {
+            count_bytes(job, t, begin, y, a + begin * size, b + begin * size,
+                        ignored ? ignored + begin : NULL, channels);
+            continue;
+        }
         for (uint32_t x = begin; x < end; x++) {
             const uint8_t *at_a = a + x * size, *at_b = b + x * size;
             uint16_t of_a[4], of_b[4];

@@ -48,13 +48,17 @@ INLINE void add_left(uint8_t *row, size_t size, size_t step) {
     }
 }
 
+INLINE words load_words(const uint8_t *at) { return __builtin_convertvector(load(at), words); }
+
+INLINE void store_words(uint8_t *at, words pixel, size_t step) {
+    store(at, __builtin_convertvector(pixel, bytes), step);
+}
+
 INLINE void add_average(uint8_t *row, const uint8_t *above, size_t size, size_t step) {
-    bytes left = {0};
+    words left = {0};
     for (size_t i = 0; i < size; i += step) {
-        const bytes up = load(above + i);
-        const uint64_t half = (uint64_t)(left ^ up) >> 1 & 0x7f7f7f7f7f7f7f7f;
-        left = load(row + i) + ((left & up) + (bytes)half); /* half of the sum, without its ninth bit */
-        store(row + i, left, step);
+        left = (load_words(row + i) + ((left + load_words(above + i)) >> 1)) & 255;
+        store_words(row + i, left, step);
     }
 }
 
@@ -63,19 +67,43 @@ INLINE words absolute(words v) {
     return (v ^ sign) - sign;
 }
 
+/* The pixel, from what is in the row and from those to the left, above and between. */
+INLINE words paeth(words raw, words left, words up, words corner) {
+    const words rise = up - corner, to_left = absolute(rise);
+    const words run = left - corner, to_up = absolute(run), to_corner = absolute(run + rise);
+    const words is_left = (to_left <= to_up) & (to_left <= to_corner), is_up = to_up <= to_corner;
+    const words other = (up & is_up) | (corner & ~is_up);
+    return (raw + ((left & is_left) | (other & ~is_left))) & 255;
+}
+
 INLINE void add_paeth(uint8_t *row, const uint8_t *above, size_t size, size_t step) {
     words left = {0}, corner = {0};
     for (size_t i = 0; i < size; i += step) {
-        const words up = __builtin_convertvector(load(above + i), words);
-        const words rise = up - corner, to_left = absolute(rise);
-        const words run = left - corner, to_up = absolute(run), to_corner = absolute(run + rise);
-        const words is_left = (to_left <= to_up) & (to_left <= to_corner), is_up = to_up <= to_corner;
-        const words other = (up & is_up) | (corner & ~is_up);
-        const words raw = __builtin_convertvector(load(row + i), words);
-        left = (raw + ((left & is_left) | (other & ~is_left))) & 255;
-        store(row + i, __builtin_convertvector(left, bytes), step);
+        const words up = load_words(above + i);
+        left = paeth(load_words(row + i), left, up, corner);
+        store_words(row + i, left, step);
         corner = up;
     }
+}
+
+/* Of a row and the next, which follows a pixel behind: each pixel waits for the one to its left, and two rows wait
+ * together. */
+INLINE void add_paeth_twice(uint8_t *row, const uint8_t *above, uint8_t *next, size_t size, size_t step) {
+    words up = load_words(above), left = paeth(load_words(row), (words){0}, up, (words){0});
+    words corner = up, next_left = {0}, next_corner = {0};
+    store_words(row, left, step);
+    for (size_t i = step; i < size; i += step) {
+        const words before = left;
+        up = load_words(above + i);
+        left = paeth(load_words(row + i), left, up, corner);
+        next_left = paeth(load_words(next + i - step), next_left, before, next_corner);
+        store_words(row + i, left, step);
+        store_words(next + i - step, next_left, step);
+        corner = up;
+        next_corner = before;
+    }
+    store_words(next + size - step, paeth(load_words(next + size - step), next_left, left, next_corner),
+                step);
 }
 
 INLINE bool undo_filter(uint8_t *row, const uint8_t *above, size_t size, size_t step) {
@@ -93,8 +121,13 @@ INLINE bool undo_filter(uint8_t *row, const uint8_t *above, size_t size, size_t 
 INLINE bool undo_all(uint8_t *rows, const uint8_t *above, size_t stride, uint32_t height, size_t step) {
     for (uint32_t y = 0; y < height; y++) {
         uint8_t *row = rows + y * stride;
-        if (!undo_filter(row, above, stride - 1, step)) return false;
-        above = row;
+        const bool twice = row[-1] == FILTER_PAETH && y + 1 < height && row[stride - 1] == FILTER_PAETH;
+        if (twice)
+            add_paeth_twice(row, above, row + stride, stride - 1, step);
+        else if (!undo_filter(row, above, stride - 1, step))
+            return false;
+        above = twice ? row + stride : row;
+        y += twice;
     }
     return true;
 }

@@ -13,13 +13,13 @@
 /* A file to be written. Zeroed fields are the usual. */
 struct sample {
     uint32_t width, height;
-    int type, bits; /* PNG_COLOR_TYPE_RGB, 8 */
+    int type, bits;         /* PNG_COLOR_TYPE_RGB, 8 */
     bool interlaced, keyed; /* keyed: with a tRNS chunk */
     int filters;            /* PNG_ALL_FILTERS */
     int pieces;             /* bytes of an IDAT chunk */
     int gamma;              /* times 100000 */
     bool srgb;
-    const char *before, *behind; /* texts */
+    const char *before, *behind;                   /* texts */
     uint8_t (*byte)(size_t x, size_t y, size_t i); /* byte i of pixel x of row y */
 };
 
@@ -46,7 +46,8 @@ static inline void sample_chunks(const struct sample *s, png_structp png, png_in
         alpha[i] = (png_byte)(i * 3);
     }
     if (s->type == PNG_COLOR_TYPE_PALETTE) png_set_PLTE(png, info, palette, 1 << s->bits);
-    if (s->keyed) png_set_tRNS(png, info, alpha, s->type == PNG_COLOR_TYPE_PALETTE ? (1 << s->bits) - 1 : 0, &key);
+    if (s->keyed)
+        png_set_tRNS(png, info, alpha, s->type == PNG_COLOR_TYPE_PALETTE ? (1 << s->bits) - 1 : 0, &key);
     if (s->gamma) png_set_gAMA_fixed(png, info, s->gamma);
     if (s->srgb) png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
 }
@@ -59,8 +60,9 @@ static inline void write_sample(const char *path, const struct sample *given) {
     FILE *file = fopen(path, "wb");
     assert_non_null(file);
     png_init_io(png, file);
-    png_set_IHDR(png, info, s.width, s.height, s.bits, s.type, s.interlaced ? PNG_INTERLACE_ADAM7 : PNG_INTERLACE_NONE,
-                 PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    png_set_IHDR(png, info, s.width, s.height, s.bits, s.type,
+                 s.interlaced ? PNG_INTERLACE_ADAM7 : PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
+                 PNG_FILTER_TYPE_DEFAULT);
     png_set_filter(png, 0, s.filters ? s.filters : PNG_ALL_FILTERS);
     if (s.pieces) png_set_compression_buffer_size(png, (size_t)s.pieces);
     sample_chunks(&s, png, info, false);
@@ -70,7 +72,8 @@ static inline void write_sample(const char *path, const struct sample *given) {
     const int passes = png_set_interlace_handling(png);
     for (int pass = 0; pass < passes; pass++)
         for (uint32_t y = 0; y < s.height; y++) {
-            for (size_t i = 0; i < size; i++) row[i] = (s.byte ? s.byte : sample_byte)(i / pixel, y, i % pixel);
+            for (size_t i = 0; i < size; i++)
+                row[i] = (s.byte ? s.byte : sample_byte)(i / pixel, y, i % pixel);
             png_write_row(png, row);
         }
     sample_chunks(&s, png, end, true);

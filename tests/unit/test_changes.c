@@ -357,6 +357,18 @@ static void test_files(void **state) {
     forget(&b);
 }
 
+static void test_terminal(void **state) {
+    (void)state;
+    const struct monge_entry entry = {1, "a\033[31m\n\xc2\x9b\x7f\xc3\xa9", "sphere", "s.yaml", 4, 1};
+    const struct monge_change change = {.kind = MONGE_CHANGE_SHADOW, .object = &entry};
+    char text[100], cut[6];
+    monge_change_text(&change, text, sizeof text);
+    assert_string_equal(text, "object \"a [31m    \xc3\xa9\" (s.yaml:4): shadow changed");
+    assert_int_equal(monge_change_text(&change, cut, sizeof cut), strlen(text));
+    assert_string_equal(cut, "objec");
+    assert_int_equal(monge_change_text(&change, NULL, 0), strlen(text));
+}
+
 /* ---- Why ---- */
 
 static void assert_causes(struct monge_stamp older, struct monge_stamp newer, const char *want) {
@@ -392,8 +404,11 @@ int main(void) {
     for (size_t i = 0; i < COUNT(rows); i++)
         tests[count++] = (struct CMUnitTest){rows[i].name, test_row, NULL, NULL, &rows[i]};
     const struct CMUnitTest others[] = {
-        cmocka_unit_test(test_bounds), cmocka_unit_test(test_refused), cmocka_unit_test(test_tolerance),
+        cmocka_unit_test(test_bounds),
+        cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_tolerance),
         cmocka_unit_test(test_causes),
+        cmocka_unit_test(test_terminal),
         cmocka_unit_test_setup_teardown(test_files, enter_folder, leave_folder)};
     for (size_t i = 0; i < COUNT(others); i++) tests[count++] = others[i];
     return _cmocka_run_group_tests("changes", tests, count, NULL, NULL);

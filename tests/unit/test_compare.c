@@ -1,7 +1,8 @@
 /* What counts as a difference, and how much of one it is. */
 #include "pictures.h"
 
-static struct monge_difference compare_with(const struct sample *a, const struct sample *b, struct monge_compare how) {
+static struct monge_difference compare_with(const struct sample *a, const struct sample *b,
+                                            struct monge_compare how) {
     struct monge_diagnostics *diag = monge_diagnostics_new();
     struct monge_difference d;
     write_sample("a.png", a);
@@ -100,7 +101,9 @@ static void limits_are_exact(void **state) {
 
 /* ---- What is ignored ---- */
 
-static uint8_t mask_byte(size_t x, size_t y, size_t i) { return (uint8_t)(x == 69 && y == 39 && i == 1 ? 1 : 0); }
+static uint8_t mask_byte(size_t x, size_t y, size_t i) {
+    return (uint8_t)(x == 69 && y == 39 && i == 1 ? 1 : 0);
+}
 
 static void regions_are_ignored(void **state) {
     (void)state;
@@ -118,8 +121,9 @@ static void masks_are_ignored(void **state) {
     (void)state;
     write_sample("mask.png", SAMPLE(WIDTH, HEIGHT, .byte = mask_byte));
     struct monge_picture *mask = read_good("mask.png");
-    const struct monge_difference d = compare_with(SAMPLE(WIDTH, HEIGHT, .byte = flat),
-                                                   SAMPLE(WIDTH, HEIGHT, .byte = dotted), (struct monge_compare){.mask = mask});
+    const struct monge_difference d =
+        compare_with(SAMPLE(WIDTH, HEIGHT, .byte = flat), SAMPLE(WIDTH, HEIGHT, .byte = dotted),
+                     (struct monge_compare){.mask = mask});
     assert_int_equal(d.pixels, WIDTH * HEIGHT - 1);
     assert_int_equal(d.different, 2);
     monge_picture_free(mask);
@@ -143,11 +147,10 @@ static void masks_must_be_of_the_size(void **state) {
 static void all_may_be_ignored(void **state) {
     (void)state;
     const struct monge_region whole = {0, 0, WIDTH, HEIGHT};
-    const struct monge_difference d =
-        compare_with(SAMPLE(WIDTH, HEIGHT, .byte = flat), SAMPLE(WIDTH, HEIGHT, .byte = dotted),
-                     (struct monge_compare){.ignore = &whole,
-                                            .ignore_count = 1,
-                                            .metrics = 1 << MONGE_METRIC_SSIM | 1 << MONGE_METRIC_FLIP});
+    const struct monge_difference d = compare_with(
+        SAMPLE(WIDTH, HEIGHT, .byte = flat), SAMPLE(WIDTH, HEIGHT, .byte = dotted),
+        (struct monge_compare){
+            .ignore = &whole, .ignore_count = 1, .metrics = 1 << MONGE_METRIC_SSIM | 1 << MONGE_METRIC_FLIP});
     assert_true(d.same);
     assert_int_equal(d.pixels, 0);
     assert_near(d.mae + d.rmse + d.max + d.flip, 0.0, 0.0, "errors");
@@ -159,7 +162,9 @@ static void all_may_be_ignored(void **state) {
 static uint8_t grey_ramp(size_t x, size_t y, size_t i) { return (void)i, (uint8_t)(3 * x + y); }
 static uint8_t grey_opaque(size_t x, size_t y, size_t i) { return i % 2 ? 255 : grey_ramp(x, y, 0); }
 static uint8_t color_opaque(size_t x, size_t y, size_t i) { return i == 3 ? 255 : grey_ramp(x, y, 0); }
-static uint8_t nearly_opaque(size_t x, size_t y, size_t i) { return i == 3 && x == 9 && y == 8 ? 254 : color_opaque(x, y, i); }
+static uint8_t nearly_opaque(size_t x, size_t y, size_t i) {
+    return i == 3 && x == 9 && y == 8 ? 254 : color_opaque(x, y, i);
+}
 
 static void forms_do_not_count(void **state) {
     (void)state;
@@ -169,8 +174,12 @@ static void forms_do_not_count(void **state) {
     assert_true(compare(color, SAMPLE(30, 20, .byte = grey_ramp, .interlaced = true)).same);
     assert_true(compare(color, SAMPLE(30, 20, .byte = grey_ramp, .before = "text")).same);
     assert_true(compare(color, SAMPLE(30, 20, .byte = grey_ramp, .srgb = true)).same);
-    assert_true(compare(grey, SAMPLE(30, 20, .type = PNG_COLOR_TYPE_GRAY_ALPHA, .bits = 8, .byte = grey_opaque)).same);
-    assert_true(compare(grey, SAMPLE(30, 20, .type = PNG_COLOR_TYPE_RGB_ALPHA, .bits = 8, .byte = color_opaque)).same);
+    assert_true(
+        compare(grey, SAMPLE(30, 20, .type = PNG_COLOR_TYPE_GRAY_ALPHA, .bits = 8, .byte = grey_opaque))
+            .same);
+    assert_true(
+        compare(grey, SAMPLE(30, 20, .type = PNG_COLOR_TYPE_RGB_ALPHA, .bits = 8, .byte = color_opaque))
+            .same);
     const struct monge_difference d =
         compare(color, SAMPLE(30, 20, .type = PNG_COLOR_TYPE_RGB_ALPHA, .bits = 8, .byte = nearly_opaque));
     assert_int_equal(d.different, 1);
@@ -193,11 +202,14 @@ static void palettes_are_looked_up(void **state) {
 
 /* 16 bits, each channel the same byte twice: v * 257. */
 static uint8_t doubled(size_t x, size_t y, size_t i) { return dotted(x, y, i / 2); }
-static uint8_t doubled_and_one(size_t x, size_t y, size_t i) { return (uint8_t)(doubled(x, y, i) + (x == 2 && y == 2 && i == 5)); }
+static uint8_t doubled_and_one(size_t x, size_t y, size_t i) {
+    return (uint8_t)(doubled(x, y, i) + (x == 2 && y == 2 && i == 5));
+}
 
 static void bits_count(void **state) {
     (void)state;
-    const struct sample *deep = SAMPLE(WIDTH, HEIGHT, .type = PNG_COLOR_TYPE_RGB, .bits = 16, .byte = doubled);
+    const struct sample *deep =
+        SAMPLE(WIDTH, HEIGHT, .type = PNG_COLOR_TYPE_RGB, .bits = 16, .byte = doubled);
     struct monge_difference d = compare(SAMPLE(WIDTH, HEIGHT, .byte = dotted), deep);
     assert_false(d.same);
     assert_int_equal(d.unlike, MONGE_UNLIKE_BITS);
@@ -216,13 +228,16 @@ static void spaces_and_sizes_count(void **state) {
     d = compare(plain, SAMPLE(30, 21, .byte = flat));
     assert_int_equal(d.unlike, MONGE_UNLIKE_SIZE);
     assert_true(!d.same && isnan(d.mae) && d.pixels == 0);
-    assert_true(compare(SAMPLE(30, 20, .byte = flat, .gamma = 50000), SAMPLE(30, 20, .byte = flat, .gamma = 50000, .before = "x")).same);
+    assert_true(compare(SAMPLE(30, 20, .byte = flat, .gamma = 50000),
+                        SAMPLE(30, 20, .byte = flat, .gamma = 50000, .before = "x"))
+                    .same);
 }
 
 static void equal_files_are_the_same(void **state) {
     (void)state;
-    const struct monge_difference d = compare_with(SAMPLE(30, 20, .byte = flat), SAMPLE(30, 20, .byte = flat),
-                                                   (struct monge_compare){.metrics = 1 << MONGE_METRIC_SSIM | 1 << MONGE_METRIC_FLIP});
+    const struct monge_difference d =
+        compare_with(SAMPLE(30, 20, .byte = flat), SAMPLE(30, 20, .byte = flat),
+                     (struct monge_compare){.metrics = 1 << MONGE_METRIC_SSIM | 1 << MONGE_METRIC_FLIP});
     assert_true(d.same && isinf(d.psnr) && d.psnr > 0);
     assert_int_equal(d.pixels, 600);
     assert_near(d.max + d.mae + d.rmse + d.flip, 0.0, 0.0, "errors");
@@ -231,7 +246,9 @@ static void equal_files_are_the_same(void **state) {
 
 /* ---- SSIM, by its definition ---- */
 
-static uint8_t other_byte(size_t x, size_t y, size_t i) { return (uint8_t)(sample_byte(x, y, i) / 2 + sample_byte(y, x + 3, i) / 3); }
+static uint8_t other_byte(size_t x, size_t y, size_t i) {
+    return (uint8_t)(sample_byte(x, y, i) / 2 + sample_byte(y, x + 3, i) / 3);
+}
 
 static double luma(uint8_t (*byte)(size_t, size_t, size_t), size_t x, size_t y) {
     return (0.299 * byte(x, y, 0) + 0.587 * byte(x, y, 1) + 0.114 * byte(x, y, 2)) / 255.0;
@@ -263,9 +280,9 @@ static void ssim_is_as_defined(void **state) {
     for (size_t y = 5; y < 45; y++)
         for (size_t x = 5; x < 55; x++) sum += window_ssim(x, y);
     for (unsigned threads = 1; threads < 4; threads++) {
-        const struct monge_difference d = compare_with(
-            SAMPLE(60, 50, .byte = sample_byte), SAMPLE(60, 50, .byte = other_byte),
-            (struct monge_compare){.metrics = 1 << MONGE_METRIC_SSIM, .threads = threads});
+        const struct monge_difference d =
+            compare_with(SAMPLE(60, 50, .byte = sample_byte), SAMPLE(60, 50, .byte = other_byte),
+                         (struct monge_compare){.metrics = 1 << MONGE_METRIC_SSIM, .threads = threads});
         assert_near(d.ssim, sum / 2000.0, 1e-10, "ssim");
     }
 }
@@ -274,9 +291,9 @@ static void ssim_of_small_pictures_is_a_number(void **state) {
     (void)state;
     for (uint32_t width = 1; width < 14; width += 4)
         for (uint32_t height = 1; height < 14; height += 4) {
-            const struct monge_difference d =
-                compare_with(SAMPLE(width, height, .byte = sample_byte), SAMPLE(width, height, .byte = other_byte),
-                             (struct monge_compare){.metrics = 1 << MONGE_METRIC_SSIM});
+            const struct monge_difference d = compare_with(
+                SAMPLE(width, height, .byte = sample_byte), SAMPLE(width, height, .byte = other_byte),
+                (struct monge_compare){.metrics = 1 << MONGE_METRIC_SSIM});
             assert_true(d.ssim > -1.0 && d.ssim < 1.0);
         }
 }

@@ -44,7 +44,8 @@ static struct color rgb_of(struct color xyz) {
     for (int k = 0; k < 4; k++) {
         for (int i = 0; i < 3; i++)
             for (int j = 0; j < 3; j++) m[i][j] = j == k ? xyz.v[i] * white.v[i] : to_xyz[i][j];
-        d[k] = m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
+        d[k] = m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
+               m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
                m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
     }
     for (int k = 0; k < 3; k++) rgb.v[k] = d[k] / d[3];
@@ -66,7 +67,8 @@ static double curve(double t) { return t > 216.0 / 24389 ? cbrt(t) : t * 841 / 1
 static struct color hunt_lab(struct color rgb) {
     const struct color w = over_white(rgb);
     const double l = 116 * curve(w.v[1]) - 16;
-    return (struct color){{l, 0.01 * l * 500 * (curve(w.v[0]) - curve(w.v[1])), 0.01 * l * 200 * (curve(w.v[1]) - curve(w.v[2]))}};
+    return (struct color){{l, 0.01 * l * 500 * (curve(w.v[0]) - curve(w.v[1])),
+                           0.01 * l * 200 * (curve(w.v[1]) - curve(w.v[2]))}};
 }
 
 static double hyab(struct color a, struct color b) {
@@ -82,7 +84,8 @@ static struct color at_clamped(const struct plane *p, int x, int y) {
 static double contrast(int channel, double d2) {
     if (channel == 0) return exp(-pi * pi * d2 / 0.0047);
     if (channel == 1) return exp(-pi * pi * d2 / 0.0053);
-    return 34.1 * sqrt(pi / 0.04) * exp(-pi * pi * d2 / 0.04) + 13.5 * sqrt(pi / 0.025) * exp(-pi * pi * d2 / 0.025);
+    return 34.1 * sqrt(pi / 0.04) * exp(-pi * pi * d2 / 0.04) +
+           13.5 * sqrt(pi / 0.025) * exp(-pi * pi * d2 / 0.025);
 }
 
 static struct color filtered(const struct plane *p, int x, int y, double ppd) {
@@ -124,13 +127,16 @@ static double plain_error(const struct plane *a, const struct plane *b, int x, i
     const struct color green = {{0, 1, 0}}, blue = {{0, 0, 1}};
     const double most = pow(hyab(hunt_lab(green), hunt_lab(blue)), 0.7);
     const double c = pow(hyab(filtered(a, x, y, ppd), filtered(b, x, y, ppd)), 0.7);
-    const double color = c < 0.4 * most ? c * 0.95 / (0.4 * most) : 0.95 + (c - 0.4 * most) / (0.6 * most) * 0.05;
+    const double color =
+        c < 0.4 * most ? c * 0.95 / (0.4 * most) : 0.95 + (c - 0.4 * most) / (0.6 * most) * 0.05;
     const double edge = fabs(feature(a, x, y, ppd, 1) - feature(b, x, y, ppd, 1));
     const double point = fabs(feature(a, x, y, ppd, 2) - feature(b, x, y, ppd, 2));
     return pow(color, 1 - sqrt(fmax(edge, point) / sqrt(2)));
 }
 
-static double light(double number) { return number <= 0.04045 ? number / 12.92 : pow((number + 0.055) / 1.055, 2.4); }
+static double light(double number) {
+    return number <= 0.04045 ? number / 12.92 : pow((number + 0.055) / 1.055, 2.4);
+}
 
 static struct plane make_plane(const struct sample *s) {
     struct plane p = {(int)s->width, (int)s->height, {{{0}}}};
@@ -172,7 +178,9 @@ static double our_mean(const struct sample *a, const struct sample *b, struct mo
 
 /* ---- Pictures ---- */
 
-static uint8_t noise(size_t x, size_t y, size_t i) { return (uint8_t)(sample_byte(x * 5, y * 3, i) * 37 + sample_byte(y, x, i)); }
+static uint8_t noise(size_t x, size_t y, size_t i) {
+    return (uint8_t)(sample_byte(x * 5, y * 3, i) * 37 + sample_byte(y, x, i));
+}
 static uint8_t shapes(size_t x, size_t y, size_t i) {
     const bool inside = (x - 15) * (x - 15) + (y - 15) * (y - 15) < 90, stripe = (x + 2 * y) % 13 < 3;
     return (uint8_t)(inside ? 200 + 20 * i : stripe ? 40 * i : 90 + x);
@@ -218,7 +226,8 @@ static void flip_is_as_the_published_program_has_it(void **state) {
         {"noise", shapes, noise, 0.556642},
     };
     for (size_t i = 0; i < COUNT(rows); i++)
-        assert_near(our_mean(SAMPLE(60, 60, .byte = rows[i].a), SAMPLE(60, 60, .byte = rows[i].b), (struct monge_compare){0}),
+        assert_near(our_mean(SAMPLE(60, 60, .byte = rows[i].a), SAMPLE(60, 60, .byte = rows[i].b),
+                             (struct monge_compare){0}),
                     rows[i].mean, 1e-4, rows[i].what);
 }
 
@@ -228,11 +237,14 @@ static void threads_and_tiles_do_not_show(void **state) {
     const struct sample *a = SAMPLE(530, 300, .byte = shapes), *b = SAMPLE(530, 300, .byte = moved);
     const double one = our_mean(a, b, (struct monge_compare){.threads = 1});
     for (unsigned threads = 2; threads < 6; threads++)
-        if (our_mean(a, b, (struct monge_compare){.threads = threads}) != one) fail_msg("%u threads", threads);
+        if (our_mean(a, b, (struct monge_compare){.threads = threads}) != one)
+            fail_msg("%u threads", threads);
     static const uint32_t sizes[][2] = {{300, 7}, {7, 300}, {1, 1}, {256, 2}, {3, 257}};
     for (size_t i = 0; i < COUNT(sizes); i++) {
-        a = SAMPLE(sizes[i][0], sizes[i][1], .byte = shapes), b = SAMPLE(sizes[i][0], sizes[i][1], .byte = tinted);
-        assert_near(our_mean(a, b, (struct monge_compare){0}), plain_mean(a, b, 67), 2e-5, "more than a tile");
+        a = SAMPLE(sizes[i][0], sizes[i][1], .byte = shapes),
+        b = SAMPLE(sizes[i][0], sizes[i][1], .byte = tinted);
+        assert_near(our_mean(a, b, (struct monge_compare){0}), plain_mean(a, b, 67), 2e-5,
+                    "more than a tile");
     }
 }
 
@@ -251,9 +263,10 @@ static void bits_and_channels_do_not_matter(void **state) {
     (void)state;
     const struct sample *deep = SAMPLE(41, 30, .type = PNG_COLOR_TYPE_RGB, .bits = 16, .byte = doubled);
     const struct sample *b = SAMPLE(41, 30, .byte = moved);
-    assert_near(our_mean(deep, b, (struct monge_compare){0}), our_mean(SAMPLE(41, 30, .byte = shapes), b, (struct monge_compare){0}),
-                0.0, "16 bits");
-    assert_near(our_mean(SAMPLE(41, 30, .type = PNG_COLOR_TYPE_GRAY, .bits = 8, .byte = grey), b, (struct monge_compare){0}),
+    assert_near(our_mean(deep, b, (struct monge_compare){0}),
+                our_mean(SAMPLE(41, 30, .byte = shapes), b, (struct monge_compare){0}), 0.0, "16 bits");
+    assert_near(our_mean(SAMPLE(41, 30, .type = PNG_COLOR_TYPE_GRAY, .bits = 8, .byte = grey), b,
+                         (struct monge_compare){0}),
                 our_mean(SAMPLE(41, 30, .byte = grey), b, (struct monge_compare){0}), 0.0, "grey");
 }
 
@@ -268,9 +281,12 @@ static void gamma_is_heeded(void **state) {
     (void)state;
     const double linear = our_mean(
         SAMPLE(41, 30, .type = PNG_COLOR_TYPE_RGB, .bits = 16, .gamma = 100000, .byte = linear_shapes),
-        SAMPLE(41, 30, .type = PNG_COLOR_TYPE_RGB, .bits = 16, .gamma = 100000, .byte = linear_moved), (struct monge_compare){0});
-    assert_near(linear, our_mean(SAMPLE(41, 30, .byte = shapes), SAMPLE(41, 30, .byte = moved), (struct monge_compare){0}), 1e-4,
-                "linear");
+        SAMPLE(41, 30, .type = PNG_COLOR_TYPE_RGB, .bits = 16, .gamma = 100000, .byte = linear_moved),
+        (struct monge_compare){0});
+    assert_near(
+        linear,
+        our_mean(SAMPLE(41, 30, .byte = shapes), SAMPLE(41, 30, .byte = moved), (struct monge_compare){0}),
+        1e-4, "linear");
 }
 
 int main(void) {
@@ -278,7 +294,8 @@ int main(void) {
         cmocka_unit_test_setup_teardown(flip_is_as_the_paper_has_it, enter_folder, leave_folder),
         cmocka_unit_test_setup_teardown(flip_is_as_the_published_program_has_it, enter_folder, leave_folder),
         cmocka_unit_test_setup_teardown(threads_and_tiles_do_not_show, enter_folder, leave_folder),
-        cmocka_unit_test_setup_teardown(what_is_ignored_does_not_show_in_its_neighbours, enter_folder, leave_folder),
+        cmocka_unit_test_setup_teardown(what_is_ignored_does_not_show_in_its_neighbours, enter_folder,
+                                        leave_folder),
         cmocka_unit_test_setup_teardown(bits_and_channels_do_not_matter, enter_folder, leave_folder),
         cmocka_unit_test_setup_teardown(gamma_is_heeded, enter_folder, leave_folder),
     };

@@ -19,7 +19,8 @@ static void check_rows(const char *path, struct monge_picture *picture) {
     assert_int_equal(monge_picture_channels(picture), png_get_channels(png, info));
     assert_int_equal(monge_picture_bits(picture), png_get_bit_depth(png, info));
     for (uint32_t y = 0; y < monge_picture_height(picture); y++)
-        if (memcmp(monge_picture_row(picture, y), png_get_rows(png, info)[y], png_get_rowbytes(png, info)) != 0)
+        if (memcmp(monge_picture_row(picture, y), png_get_rows(png, info)[y], png_get_rowbytes(png, info)) !=
+            0)
             fail_msg("%s: row %u", path, y);
     png_destroy_read_struct(&png, &info, NULL);
 }
@@ -39,16 +40,17 @@ static void all_kinds_are_read(void **state) {
     static const struct {
         int type, bits;
     } kinds[] = {
-        {PNG_COLOR_TYPE_GRAY, 1},     {PNG_COLOR_TYPE_GRAY, 2},        {PNG_COLOR_TYPE_GRAY, 4},
-        {PNG_COLOR_TYPE_GRAY, 8},     {PNG_COLOR_TYPE_GRAY, 16},       {PNG_COLOR_TYPE_RGB, 8},
-        {PNG_COLOR_TYPE_RGB, 16},     {PNG_COLOR_TYPE_PALETTE, 1},     {PNG_COLOR_TYPE_PALETTE, 2},
-        {PNG_COLOR_TYPE_PALETTE, 4},  {PNG_COLOR_TYPE_PALETTE, 8},     {PNG_COLOR_TYPE_GRAY_ALPHA, 8},
+        {PNG_COLOR_TYPE_GRAY, 1},      {PNG_COLOR_TYPE_GRAY, 2},        {PNG_COLOR_TYPE_GRAY, 4},
+        {PNG_COLOR_TYPE_GRAY, 8},      {PNG_COLOR_TYPE_GRAY, 16},       {PNG_COLOR_TYPE_RGB, 8},
+        {PNG_COLOR_TYPE_RGB, 16},      {PNG_COLOR_TYPE_PALETTE, 1},     {PNG_COLOR_TYPE_PALETTE, 2},
+        {PNG_COLOR_TYPE_PALETTE, 4},   {PNG_COLOR_TYPE_PALETTE, 8},     {PNG_COLOR_TYPE_GRAY_ALPHA, 8},
         {PNG_COLOR_TYPE_RGB_ALPHA, 8}, {PNG_COLOR_TYPE_GRAY_ALPHA, 16}, {PNG_COLOR_TYPE_RGB_ALPHA, 16},
     };
     for (size_t k = 0; k < COUNT(kinds); k++)
         for (int more = 0; more < 4; more++) {
             const bool keyed = more & 1 && !(kinds[k].type & PNG_COLOR_MASK_ALPHA);
-            check_sample(SAMPLE(37, 23, .type = kinds[k].type, .bits = kinds[k].bits, .interlaced = more & 2, .keyed = keyed));
+            check_sample(SAMPLE(37, 23, .type = kinds[k].type, .bits = kinds[k].bits, .interlaced = more & 2,
+                                .keyed = keyed));
         }
 }
 
@@ -56,7 +58,8 @@ static void all_filters_are_undone(void **state) {
     (void)state;
     static const int types[] = {PNG_COLOR_TYPE_GRAY, PNG_COLOR_TYPE_GRAY_ALPHA, PNG_COLOR_TYPE_RGB,
                                 PNG_COLOR_TYPE_RGB_ALPHA};
-    static const int filters[] = {PNG_FILTER_NONE, PNG_FILTER_SUB, PNG_FILTER_UP, PNG_FILTER_AVG, PNG_FILTER_PAETH};
+    static const int filters[] = {PNG_FILTER_NONE, PNG_FILTER_SUB, PNG_FILTER_UP, PNG_FILTER_AVG,
+                                  PNG_FILTER_PAETH};
     static const uint32_t widths[] = {1, 2, 3, 8, 61};
     for (size_t t = 0; t < COUNT(types); t++)
         for (int bits = 8; bits <= 16; bits += 8)
@@ -148,7 +151,8 @@ static bool is_good(const char *path) {
 static void cut_off_files_are_refused(void **state) {
     (void)state;
     for (int type = 0; type < 2; type++) {
-        write_sample("a.png", SAMPLE(9, 7, .type = type ? PNG_COLOR_TYPE_PALETTE : PNG_COLOR_TYPE_RGB, .bits = 8));
+        write_sample("a.png",
+                     SAMPLE(9, 7, .type = type ? PNG_COLOR_TYPE_PALETTE : PNG_COLOR_TYPE_RGB, .bits = 8));
         const struct file file = load_file("a.png");
         for (size_t size = 0; size < file.size; size++) {
             save_file("b.png", file.byte, size);

@@ -111,6 +111,72 @@ static size_t count_different(const float *a, const float *b, size_t pixels) {
     return different;
 }
 
+/* Somebody who keeps tiles: a film of which the rows up to `known` are there. */
+struct keeper {
+    const struct monge_film *film;
+    uint32_t known;
+    atomic_uint given, done, stopped;
+    atomic_bool cancel; /* set when a tile is done */
+    bool impatient;
+};
+
+static const float *keeper_pixel(const struct keeper *k, const struct monge_region *tile, uint32_t y) {
+    const struct monge_region all = monge_film_region(k->film);
+    return monge_film_pixels(k->film) + 3 * ((size_t)(tile->y - all.y + y) * all.width + tile->x - all.x);
+}
+
+static bool give_tile(void *context, const struct monge_region *tile, float *rgb, size_t stride) {
+    struct keeper *k = context;
+    if (tile->y + tile->height > k->known) return false;
+    for (uint32_t y = 0; y < tile->height; y++)
+        memcpy(rgb + y * stride, keeper_pixel(k, tile, y), 3 * tile->width * sizeof *rgb);
+    atomic_fetch_add(&k->given, tile->width * tile->height);
+    return true;
+}
+
+static void take_tile(void *context, const struct monge_region *tile, const float *rgb, size_t stride) {
+    struct keeper *k = context;
+    for (uint32_t y = 0; y < tile->height; y++)
+        assert_memory_equal(rgb + y * stride, keeper_pixel(k, tile, y), 3 * tile->width * sizeof *rgb);
+    atomic_fetch_add(&k->done, tile->width * tile->height);
+    if (k->impatient) atomic_store(&k->cancel, true);
+}
+
+static void stop_tiles(void *context) { atomic_fetch_add(&((struct keeper *)context)->stopped, 1); }
+
+/* Tiles that are known are not rendered, the others are told, and the picture is the same. */
+static void test_tiles(void **state) {
+    (void)state;
+    char *text = busy_scene(1, 173, 101);
+    struct monge_scene *scene = load(text);
+    const struct monge_settings settings = monge_scene_settings(scene);
+    const struct monge_region part = {9, 5, 120, 90};
+    struct monge_film *whole = render(scene, &part, 2);
+    for (uint32_t known = 0; known <= 95; known += 19) {
+        struct keeper k = {.film = whole, .known = known};
+        const struct monge_tiles tiles = {&k, give_tile, take_tile, stop_tiles};
+        const struct monge_job job = {.threads = 3, .tiles = &tiles, .cancel = &k.cancel};
+        struct monge_stats stats;
+        struct monge_film *film = monge_render(scene, &settings, &part, &job, &stats);
+        assert_non_null(film);
+        assert_memory_equal(monge_film_pixels(film), monge_film_pixels(whole), 120 * 90 * 3 * sizeof(float));
+        assert_int_equal(k.given + k.done, 120 * 90);
+        assert_int_equal(stats.rays[MONGE_RAY_CAMERA], k.done);
+        assert_int_equal(k.stopped, 0);
+        assert_true(known < 95 || k.done == 0);
+        monge_film_free(film);
+    }
+    struct keeper k = {.film = whole, .impatient = true};
+    const struct monge_tiles tiles = {&k, give_tile, take_tile, stop_tiles};
+    const struct monge_job job = {.threads = 2, .tiles = &tiles, .cancel = &k.cancel};
+    assert_null(monge_render(scene, &settings, &part, &job, NULL));
+    assert_true(k.done >= 1 && k.done < 120 * 90);
+    assert_int_equal(k.stopped, 1);
+    monge_film_free(whole);
+    monge_scene_free(scene);
+    free(text);
+}
+
 static void test_scale_of_the_world(void **state) {
     (void)state;
     char *text = busy_scene(1, 160, 120);
@@ -250,13 +316,10 @@ static void test_framing(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_threads),
-        cmocka_unit_test(test_regions),
-        cmocka_unit_test(test_scale_of_the_world),
-        cmocka_unit_test(test_perspective),
-        cmocka_unit_test(test_orthographic),
-        cmocka_unit_test(test_straight_down),
-        cmocka_unit_test(test_framing),
+        cmocka_unit_test(test_threads),       cmocka_unit_test(test_regions),
+        cmocka_unit_test(test_tiles),         cmocka_unit_test(test_scale_of_the_world),
+        cmocka_unit_test(test_perspective),   cmocka_unit_test(test_orthographic),
+        cmocka_unit_test(test_straight_down), cmocka_unit_test(test_framing),
     };
     return cmocka_run_group_tests_name("render", tests, NULL, NULL);
 }

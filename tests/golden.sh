@@ -1,0 +1,476 @@
+#!/usr/bin/env bash
+# Tests of monge test and monge accept: tests/golden.sh [PROGRAM], build/monge by default. Works in a folder of its own.
+# Tests that need a tool which is not here (python3, git, perl) are left out.
+
+monge=$(realpath "${1:-build/monge}")
+[ -x "$monge" ] || { echo "golden: no program $monge" >&2; exit 1; }
+tools=$(realpath "$(dirname "$0")/../tools/ci")
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 1
+export NO_COLOR=1
+
+passed=0 failed=0
+
+# ok NAME COMMAND...: a test that passes when the command succeeds.
+ok() {
+    local name=$1
+    shift
+    if "$@" >/dev/null 2>&1; then
+        passed=$((passed + 1))
+    else
+        failed=$((failed + 1))
+        echo "FAILED: $name"
+        echo "    failed: $*; after: monge $last; exit $status"
+        sed 's/^/    | /' out err
+    fi
+}
+
+# exits STATUS ARGS...: runs monge; a test of its exit status. out and err are what it says.
+exits() {
+    local want=$1
+    shift
+    last=$*
+    "$monge" "$@" >out 2>err </dev/null
+    status=$?
+    ok "exit $want: monge $*" [ "$status" -eq "$want" ]
+}
+
+out_has() { ok "stdout has \`$1\`" grep -qF -e "$1" out; }
+out_lacks() { ok "stdout lacks \`$1\`" sh -c '! grep -qF -e "$1" out' sh "$1"; }
+err_has() { ok "stderr has \`$1\`" grep -qF -e "$1" err; }
+no_err() { ok "nothing on stderr" [ ! -s err ]; }
+no_out() { ok "nothing on stdout" [ ! -s out ]; }
+there() { ok "$1 is there" [ -f "$1" ]; }
+missing() { ok "$1 is not there" [ ! -e "$1" ]; }
+have() { command -v "$1" >/dev/null; }
+# says STATUS NAME: the line of a golden.
+says() { ok "$2 is $1" grep -qE "^$1 +$2(  |$)" out; }
+sums() { find "$1" -type f -exec cksum {} + | sort; }
+
+# scene FILE COLOUR [X]: small, of three objects with names.
+scene() {
+    mkdir -p "$(dirname "$1")"
+    cat >"$1" <<YAML
+image: {size: [40, 30], samples: 1}
+camera: {eye: [0, 3, 8], look_at: [0, 0, 0]}
+lights: [{point: {at: [3, 8, 3]}}]
+scene:
+  - sphere: {center: [-1.5, 0, 0]}
+    name: ball
+    material: {diffuse: $2}
+  - box: {}
+    name: lid
+    transform: {translate: [${3:-1.5}, 0, 0]}
+  - plane: {normal: [0, 1, 0]}
+    name: floor
+    transform: {translate: [0, -1, 0]}
+YAML
+}
+# fresh [GOLDEN.YAML]: three scenes in s/, no goldens, no run.
+fresh() {
+    rm -rf s g monge-test
+    scene s/one.yaml red
+    scene s/two.yaml gold
+    scene 's/in/a b%.yaml' teal
+    mkdir g
+    [ $# -eq 0 ] || printf '%s\n' "$@" >g/golden.yaml
+}
+
+# ---- Usage ----
+
+fresh
+exits 2 test s; err_has '--golden DIR is missing'
+exits 2 test --golden g; err_has 'test: no scene given; `root` in g/golden.yaml'
+exits 2 accept; err_has '--golden DIR is missing'
+exits 2 accept --golden g; err_has 'monge-test/results.json is not there: `monge test` makes it'
+exits 2 test none.yaml --golden g; says broken none; out_has 'No such file or directory'
+exits 2 test nowhere/ --golden g; out_has 'cannot read nowhere/: No such file'
+exits 2 test s --golden g --golden-kind jpg; err_has 'expected png, hash or both'
+exits 2 test s --golden g --json - --junit -; err_has 'standard output can take only one of them'
+last='test - --golden g'; "$monge" test - --golden g <s/one.yaml >out 2>err; status=$?
+ok 'a scene on stdin is exit 2' [ $status -eq 2 ]; err_has 'a scene on standard input has no name'
+echo s/one.yaml | "$monge" test - --golden g >out 2>err; says new one
+
+# ---- The life of a golden, of each kind ----
+
+for kind in png hash both; do
+    fresh "kind: $kind"
+    exits 1 test s --golden g; no_err
+    says new one; says new 'in/a b%'; out_has 'monge render '"'s/in/a b%.yaml'"' -o '"'a b%.png'"
+    out_has '3 goldens: 3 new, in'; out_has '`monge accept --golden g` takes the new pictures'
+    there monge-test/new/one.png; there 'monge-test/new/in/a b%.png'; there monge-test/results.json
+    ok 'the run keeps itself out of git' [ "$(cat monge-test/.gitignore)" = '*' ]
+    ok 'nothing in the goldens yet' [ "$(ls g)" = golden.yaml ]
+    exits 0 accept --golden g; out_has 'took one'; out_has '3 taken'
+    case $kind in
+    png) there 'g/in/a b%.png'; missing g/golden.lock ;;
+    hash) missing g/one.png; ok 'three lines' [ "$(grep -vc '^#' g/golden.lock)" -eq 3 ] ;;
+    both) there g/one.png; there g/golden.lock ;;
+    esac
+    [ $kind = png ] || ok 'a name is escaped' grep -q '^in/a%20b%25 40x30x8 pixels=' g/golden.lock
+    [ $kind = png ] || ok 'lines are sorted' sh -c 'grep -v "^#" g/golden.lock | LC_ALL=C sort -c'
+    sums g >before
+    exits 0 test s --golden g; says same one; says same 'in/a b%'; out_has '3 goldens: 3 same'
+    ok 'no new pictures' [ -z "$(find monge-test -name '*.png')" ]
+    exits 0 test s --golden g -q; ok 'quiet: the summary alone' [ "$(wc -l <out)" -eq 1 ]
+
+    scene s/one.yaml '"#ff0001"'
+    exits 1 test s --golden g; says changed one; says same two
+    out_has "the scene's text differs; the options and the program are the same"
+    out_has 'new: monge-test/new/one.png'; out_has '3 goldens: 2 same, 1 changed'
+    [ $kind = hash ] || out_has 'flip'
+    exits 1 test s --golden g --jobs 1; says changed one
+    exits 1 test s/two.yaml s/one.yaml --golden g
+    ok 'the order of the operands' [ "$(grep -oE '^(same|changed) +[a-z]+' out | tr -s ' ' | tr '\n' ,)" = 'same two,changed one,' ]
+    ok 'a run touches no golden' [ "$(sums g)" = "$(cat before)" ]
+
+    exits 2 accept two 'x*' --golden g; err_has 'x*: no golden of the last run is called so'
+    exits 0 accept two --golden g; out_has '0 taken'
+    ok 'what did not fail is not touched' [ "$(sums g)" = "$(cat before)" ]
+    cp s/one.yaml kept; echo '# more' >>s/one.yaml
+    exits 1 accept --golden g; err_has 'one is left as it is: the scene has changed since the run'
+    ok 'a refusal touches nothing' [ "$(sums g)" = "$(cat before)" ]
+    cp kept s/one.yaml
+    exits 0 accept 'o*' --golden g; out_has 'took one'; out_has '1 taken'
+    exits 0 test s --golden g; says same one
+    ok 'the others are as before' [ "$(sums g | grep -v 'one.png\|lock')" = "$(grep -v 'one.png\|lock' before)" ]
+
+    rm s/two.yaml
+    exits 1 test s --golden g; says orphan two; out_has 'its scene is gone'
+    exits 0 test s/one.yaml --golden g; out_lacks orphan
+    exits 1 test s --golden g -q
+    exits 0 accept --golden g; out_has '0 taken'
+    exits 0 accept --golden g --prune; out_has 'removed two'; missing g/two.png
+    exits 0 test s --golden g; out_has '2 goldens: 2 same'
+    echo 'scene: [{sphre: {}}]' >s/one.yaml
+    exits 1 test s --golden g; says broken one; out_has 'did you mean `sphere`?'; out_lacks orphan
+    exits 0 accept --golden g; out_has '0 taken'
+    scene s/three.yaml blue
+    scene s/one.yaml lime
+    exits 0 test s --golden g --update-only-failed; says new three; says changed one; out_has '2 of 2 new pictures are goldens now'
+    exits 0 test s --golden g
+    exits 0 accept --golden g; out_has '0 taken'
+done
+
+# ---- Missing goldens ----
+
+fresh 'kind: both'
+exits 0 test s --golden g --update-only-failed -q
+cp -r g gkept
+rm g/one.png
+exits 1 test s --golden g; says missing one; out_has 'g/golden.lock has a line for it, but g/one.png is not there'
+rm -rf g; cp -r gkept g; sed -i '/^one /d' g/golden.lock
+exits 1 test s --golden g; says missing one; out_has 'g/one.png is there, but g/golden.lock has no line for it'
+rm -rf g; cp -r gkept g; cp g/two.png g/one.png
+exits 1 test s --golden g; says missing one; out_has 'its line in g/golden.lock is not that of the picture g/one.png'
+rm -rf g; cp -r gkept g; head -c 300 gkept/one.png >g/one.png
+exits 1 test s --golden g; says missing one; out_has 'cannot use g/one.png'
+exits 0 accept --golden g; exits 0 test s --golden g
+echo 'version https://git-lfs' >g/one.png
+exits 1 test s --golden g --golden-kind png; says missing one
+rm -rf g gkept; mkdir g; exits 0 test s --golden g --golden-kind hash --update-only-failed -q
+exits 1 test s --golden g --golden-kind png; says missing one; out_has 'has a line for it, but g/one.png'
+
+# ---- Lock files that are hostile ----
+
+fresh 'kind: hash'
+exits 0 test s --golden g --update-only-failed -q
+cp g/golden.lock lock
+lock() { cp lock g/golden.lock; printf "$@" >>g/golden.lock; exits 2 test s --golden g; no_out; }
+hash=0123456789abcdef0123456789abcdef
+lock '<<<<<<< ours\n'; err_has 'g/golden.lock:5: a conflict of a merge that is not resolved'
+lock '=======\n'; err_has 'conflict'
+lock '../x 1x1x8 pixels=%s\n' $hash; err_has 'no name of a golden'
+lock '/x 1x1x8 pixels=%s\n' $hash; err_has 'no name of a golden'
+lock 'x//y 1x1x8 pixels=%s\n' $hash; err_has 'no name of a golden'
+lock 'x%%2F..%%2Fy 1x1x8 pixels=%s\n' $hash; err_has 'no name of a golden'
+lock 'x%%00 1x1x8 pixels=%s\n' $hash; err_has 'no name of a golden'
+lock ' x 1x1x8 pixels=%s\n' $hash; err_has 'no name of a golden'
+lock 'x\n'; err_has 'a size is expected'
+lock 'x 1x1 pixels=%s\n' $hash; err_has 'a size is expected'
+lock 'x 1x1x9 pixels=%s\n' $hash; err_has 'a size is expected'
+lock 'x 99999x1x8 pixels=%s\n' $hash; err_has 'a size is expected'
+lock 'x 4294967297x1x8 pixels=%s\n' $hash; err_has 'a size is expected'
+lock 'x 1x1x8\n'; err_has 'it has no pixels='
+lock 'x 1x1x8 pixels=%s0\n' $hash; err_has 'each once and with a hash'
+lock 'x 1x1x8 pixels=%s pixels=%s\n' $hash $hash; err_has 'each once'
+lock 'x 1x1x8 pixels=%s more=%s\n' $hash $hash; err_has 'each once'
+lock 'x 1x1x8 pixels=%s  text=%s\n' $hash $hash; err_has 'each once'
+lock 'x 1x1x8 pixels=%s' $hash; err_has 'the line is cut off'
+lock 'x 1x1x8 pix\0els=%s\n' $hash; err_has 'NUL'
+lock 'x 1x1x8 pixels=%s options=\x01\n' $hash; err_has 'must be written as %XX'
+lock 'one 1x1x8 pixels=%s\n' $hash; err_has 'two lines for one'
+cp lock g/golden.lock; exits 0 test s --golden g
+
+# ---- golden.yaml ----
+
+fresh 'rules: [{scenes: one, optoins: --samples 2}]'
+exits 2 test s --golden g; err_has 'g/golden.yaml:1:23: error[unknown-key]'; err_has 'did you mean `options`?'
+wrong() { fresh "rules:" "  - {scenes: one, options: $1}"; exits 2 test s --golden g; err_has "$2"; err_has 'g/golden.yaml:2: so are the `options` of this rule'; }
+wrong '--sizee 3x3' 'did you mean `--size`?'
+wrong '--size 3' 'expected WxH'
+wrong '-o x.png' '--output does not change pixels'
+wrong '--threads 1' '--threads does not change pixels'
+wrong 'x.yaml' 'expected options alone, found `x.yaml`'
+wrong "\"-D 'a=1\"" 'a quote is not closed'
+wrong '--shadow 0.5 --no-shadows' 'give one of them'
+fresh 'rules: [{scenes: one, tolerance: {max: 0.1}}]'; exits 2 test s --golden g; err_has 'a tolerance needs the key `reason`'
+fresh 'root: ../nowhere'; exits 2 test s --golden g; err_has '`root`: g/../nowhere: No such file'
+fresh 'rules: [{scenes: one, options: --frames 2}]'; exits 1 test s --golden g; says broken one; out_has 'has no animation'
+fresh 'rules: [{scenes: one, options: "--region 0,0,99,99"}]'; exits 1 test s --golden g; says broken one; out_has 'does not lie within'
+
+fresh 'rules:' '  - {scenes: [one, "in/*"], options: --size 20x10}' '  - {scenes: "*", options: --samples 2}'
+exits 0 test s --golden g --update-only-failed -q
+ok 'the first rule that matches' grep -qa 'options.*--size 20x10' g/one.png
+ok 'it alone' sh -c '! grep -qa -e --samples g/one.png'
+ok 'a rule for the rest' grep -qa -e '--samples 2' g/two.png
+sed -i 's/20x10/21x10/' g/golden.yaml
+exits 1 test s --golden g; says changed one; out_has 'another size'; out_has 'the options differ'; out_has '--size 21x10 -o one.png'
+sed -i 's/21x10/22x10/' g/golden.yaml
+exits 1 accept --golden g; err_has 'one is left as it is: its options in golden.yaml have changed since the run'
+
+# Frames and parameters: a golden each.
+fresh 'rules:' '  - {scenes: turn, options: "--frames 1-3:2 -D tint=red,\"hsv(120, 1, 1)\""}'
+printf 'params: {tint: white}\nanimation: {frames: 4}\nimage: {size: [8, 6], samples: 1}\nscene:\n  - box: {}\n    material: {diffuse: tint}\n    transform: {rotate: {y: 90 * t + 10}}\n' >s/turn.yaml
+exits 1 test s --golden g; says new turn-tint=red-0001; says new turn-tint=hsv_120_1_1-0003
+out_has "monge render s/turn.yaml --frames 3 -D 'tint=hsv(120, 1, 1)' -o turn-tint=hsv_120_1_1-0003.png"
+exits 0 accept --golden g; out_has '7 taken'
+exits 0 test s --golden g; sed -i 's/1-3:2/1/' g/golden.yaml
+exits 1 test s --golden g; says orphan turn-tint=red-0003; says same turn-tint=red-0001
+sed -i 's/box/bxo/' s/turn.yaml; exits 1 test s --golden g; says broken turn-tint=red; out_lacks orphan
+
+# A root: the same names however a scene is named, and orphans by what is there.
+fresh 'root: ../s'
+exits 1 test --golden g; says new 'in/a b%'; out_has "monge render 's/in/a b%.yaml'"
+exits 0 accept --golden g
+exits 0 test 's/in/a b%.yaml' --golden g; says same 'in/a b%'; out_has '1 golden: 1 same'
+exits 0 test s/in --golden g; says same 'in/a b%'
+mv s/two.yaml kept.yaml
+exits 1 test s/one.yaml --golden g; says orphan two
+mv kept.yaml s/two.yaml
+exits 1 accept --golden g --prune; err_has 'two is left as it is: its scene is there again'; there g/two.png
+exits 0 test --golden g
+scene one.yaml blue
+exits 2 test s/one.yaml one.yaml --golden g; err_has 's/one.yaml and one.yaml would have the same golden, one'
+exits 0 test s s/one.yaml --golden g; out_has '3 goldens: 3 same'
+rm one.yaml
+
+# ---- Tolerances ----
+
+fresh
+exits 0 test s --golden g --update-only-failed -q
+scene s/one.yaml '"#fd0000"'
+tolerance() { printf 'rules: [{scenes: one, tolerance: {%s, reason: "why not"}}]\n' "$1" >g/golden.yaml; exits "$2" test s --golden g; }
+rm -f g/golden.yaml; exits 1 test s --golden g; says changed one
+tolerance 'max: 0.02' 0; says same one; out_has 'within its tolerance (why not): '; missing monge-test/new/one.png
+tolerance 'max: 0.001' 1; says changed one; out_has 'allowed: no pixel by over 0.001'
+tolerance 'pixels: 100%' 0
+tolerance 'pixels: 1%' 1; out_has 'allowed: at most 1% of the pixels by over 0'
+tolerance 'pixels: 5' 1
+tolerance 'pixels: 1200' 0
+tolerance 'max: 0.001, pixels: 50%' 0
+tolerance 'mae: 0.01' 0; tolerance 'mae: 0.0000001' 1
+tolerance 'rmse: 0.01' 0; tolerance 'rmse: 0.0000001' 1
+tolerance 'psnr: 30' 0; tolerance 'psnr: 100' 1
+tolerance 'ssim: 0.9' 0; tolerance 'ssim: 1' 1
+tolerance 'flip: 0.1' 0; tolerance 'flip: 0.0000001' 1
+tolerance 'flip: 0.1, max: 0.001' 1
+tolerance 'flip: 0.1, max: 0.02' 0
+rm g/golden.yaml; echo 'tolerance: {flip: 0.1, reason: it says so itself}' >>s/one.yaml
+exits 0 test s --golden g; out_has 'within its tolerance (it says so itself)'
+tolerance 'max: 0.001' 1; says changed one # the settings go before the scene
+printf 'rules: [{scenes: one, options: --size 41x30, tolerance: {pixels: 100%%, reason: r}}]\n' >g/golden.yaml
+exits 1 test s --golden g; says changed one; out_has 'another size'
+rm -rf g; exits 0 test s --golden g --golden-kind hash --update-only-failed -q; scene s/one.yaml '"#fe0000"'
+echo 'tolerance: {flip: 0.1, reason: r}' >>s/one.yaml
+exits 1 test s --golden g --golden-kind hash; says changed one; out_has 'a golden that is a hash knows no tolerance'
+
+# ---- --changed ----
+
+for kind in png hash both; do
+    fresh "kind: $kind"
+    exits 0 test s --golden g --update-only-failed -q
+    exits 0 test s --golden g --changed; out_has '3 goldens: 3 same'; ok 'all are unchanged' [ "$(grep -c '  unchanged$' out)" -eq 3 ]
+    rm -rf monge-test
+    exits 0 test s --golden g --changed; ok 'without a run before too' [ "$(grep -c '  unchanged$' out)" -eq 3 ]
+    echo '# a comment' >>s/one.yaml
+    exits 0 test s --golden g --changed; says same one; ok 'the one is rendered' [ "$(grep -c '  unchanged$' out)" -eq 2 ]
+    exits 0 test s --golden g --changed; ok 'and then unchanged since the run' [ "$(grep -c '  unchanged$' out)" -eq 3 ]
+    scene s/one.yaml blue
+    exits 1 test s --golden g --changed; says changed one
+    exits 1 test s --golden g --changed; says changed one
+    # a golden that is not what it was; of a hash that cannot be told without rendering
+    if [ $kind = png ]; then
+        "$monge" render -q s/two.yaml --size 40x31 -o x.png; cp x.png g/two.png
+        exits 1 test s --golden g --changed; says changed two
+    elif [ $kind = both ]; then
+        sed -i '/^two /s/pixels=..../pixels=0000/' g/golden.lock
+        exits 1 test s --golden g --changed; says missing two
+    fi
+done
+fresh
+printf 'include: ../common.yaml\nimage: {size: [8, 6], samples: 1}\nscene: [{sphere: {}, material: m}]\n' >s/three.yaml
+echo 'materials: {m: {diffuse: red}}' >common.yaml
+exits 0 test s --golden g --update-only-failed -q
+echo 'materials: {m: {diffuse: blue}}' >common.yaml
+exits 1 test s --golden g --changed; says changed three; ok 'only that' [ "$(grep -c '  unchanged$' out)" -eq 3 ]
+exits 1 test s --golden g -q; echo 'materials: {m: {diffuse: lime}}' >common.yaml
+exits 1 accept --golden g; err_has 'three is left as it is: the scene has changed since the run'
+
+# ---- What changed ----
+
+fresh 'rules: [{scenes: "*", aov: true}]'
+exits 0 test s --golden g --update-only-failed -q
+there g/one.object.png; there g/one.depth.pfm
+exits 0 test s --golden g; out_lacks orphan
+scene s/one.yaml blue 1.7
+exits 1 test s --golden g
+out_has 'object "ball" (s/one.yaml:5): shading changed, geometry equal'
+out_has 'object "lid" (s/one.yaml:8): geometry moved'
+out_has 'object "floor" (s/one.yaml:11): shadow changed'
+exits 0 accept --golden g; exits 0 test s --golden g
+rm s/one.yaml; exits 1 test s --golden g; exits 0 accept --golden g --prune; missing g/one.object.png
+fresh 'kind: hash' 'rules: [{scenes: "*", aov: true}]'
+exits 0 test s --golden g --update-only-failed -q
+ok 'hashes of passes' grep -qE '^one .* depth=[0-9a-f]{32} normal=[0-9a-f]{32} shadow=[0-9a-f]{32}$' g/golden.lock
+scene s/one.yaml blue; exits 1 test s --golden g; out_has 'shading changed, geometry and shadow equal'
+scene s/one.yaml red 1.7; exits 1 test s --golden g; out_has 'geometry changed'
+scene s/one.yaml red; sed -i 's/at: \[3/at: [-3/' s/one.yaml; exits 1 test s --golden g; out_has 'shadow changed, geometry equal'
+
+# ---- The old picture of a hash ----
+
+fresh 'kind: hash'
+sed -i 's/diffuse: red/diffuse: tint/; 1iparams: {tint: red}' s/one.yaml
+exits 0 test s --golden g --update-only-failed -q
+sed -i 's/tint: red/tint: blue/' s/one.yaml
+printf '#!/bin/sh\nexec "%s" "$@" -D tint=red\n' "$monge" >old; printf '#!/bin/sh\nexit 1\n' >older; chmod +x old older
+exits 1 test s --golden g --old ./old; says changed one; out_has 'flip'; there monge-test/old/one.png
+exits 1 test s --golden g --old ./older; out_has './older makes no picture of it'; missing monge-test/old/one.png
+exits 1 test s --golden g --old "$monge"; out_has 'makes another picture of it than the golden'
+if have git; then
+    export GIT_CONFIG_GLOBAL=/dev/null GIT_AUTHOR_NAME=a GIT_AUTHOR_EMAIL=a GIT_COMMITTER_NAME=a GIT_COMMITTER_EMAIL=a
+    sed -i 's/tint: blue/tint: red/' s/one.yaml
+    git init -q . && git add s g && git commit -qm old && echo >>g/golden.lock && git commit -qam later
+    cp monge-test/../s/one.yaml was.yaml
+    sed -i 's/tint: red/tint: blue/' s/one.yaml
+    exits 1 test s --golden g; out_has 'old: git worktree add /tmp/monge-old'
+    sed -n 's/^ *old: //p' out | sed "s|/tmp/monge-old|$work/monge-old|g" >command
+    PATH=$(dirname "$monge"):$PATH sh command >/dev/null 2>&1
+    "$monge" render -q was.yaml -o was.png
+    ok 'the command gives the old picture' sh -c 'grep -qa "$(grep -ao "monge:pixels.[0-9a-f]*" was.png | tail -c 32)" old.png'
+    rm -rf .git
+fi
+
+# ---- For programs ----
+
+fresh
+exits 0 test s/one.yaml --golden g --update-only-failed -q
+scene s/one.yaml blue; echo 'scene: [{sphre: {}}]' >'s/b&<"d#.yaml'
+exits 1 test s --golden g --tap; no_err
+ok 'TAP' [ "$(head -n 1 out)" = 'TAP version 13' ]
+ok 'its plan' grep -qx '1..4' out
+ok 'its escapes' grep -qx 'not ok 1 - b&<"d\\#' out
+ok 'as many as planned' [ "$(grep -cE '^(not )?ok [0-9]+ - ' out)" -eq 4 ]
+exits 1 test s --golden g --junit junit.xml --json results.json --report r
+there r/index.html; ok 'the same document' cmp results.json monge-test/results.json
+exits 1 test s --golden g --json -; err_has 'changed  one'; ok 'a document alone' [ "$(head -c 10 out)" = '{"about": ' ]
+if have python3; then
+    ok 'JSON' python3 - <<'PYTHON'
+import json, re
+run = json.load(open("results.json"))
+assert run["summary"] == {"same": 0, "changed": 1, "new": 2, "missing": 0, "orphan": 0, "broken": 1}, run["summary"]
+assert run["golden"] == "g" and re.fullmatch("[0-9a-f]{32}", run["program"])
+by = {s["name"]: s for s in run["scenes"]}
+assert list(by) == ['b&<"d#', "in/a b%", "one", "two"], list(by)
+one = by["one"]
+assert one["status"] == "changed" and one["scene"] == "s/one.yaml" and one["command"].startswith("monge render s/one.yaml")
+assert set(one["metrics"]) == {"exact", "max", "mae", "rmse", "psnr", "ssim", "flip"}
+assert 0 < one["metrics"]["flip"] < 1 and one["pixels"]["different"] > 0
+assert one["differs"] == {"text": True, "options": False, "program": False}
+assert one["pictures"] == {"golden": "g/one.png", "new": "monge-test/new/one.png"}
+assert one["stamp"]["size"] == [40, 30] and one["stamp"]["pixels"] != one["golden_stamp"]["pixels"]
+assert "sphre" in by['b&<"d#']["message"]
+PYTHON
+    ok 'JUnit' python3 - <<'PYTHON'
+import xml.etree.ElementTree as tree
+suite = tree.parse("junit.xml").getroot().find("testsuite")
+assert (suite.get("tests"), suite.get("failures"), suite.get("errors")) == ("4", "3", "1"), suite.attrib
+cases = {(c.get("classname"), c.get("name")): c for c in suite}
+assert cases["in", "a b%"].find("failure").get("type") == "new"
+assert "sphre" in cases["scenes", 'b&<"d#'].find("error").text
+assert "monge render" in cases["scenes", "one"].find("failure").text
+PYTHON
+fi
+exits 0 accept one --golden g; exits 0 test s/one.yaml --golden g --changed --junit junit.xml --tap
+out_has '# SKIP unchanged'; ok 'JUnit skips' grep -q '<skipped' junit.xml
+
+# ---- What is in tools/ci ----
+
+fresh 'root: ../s' 'kind: hash'
+mv g goldens
+mkdir -p .monge/build; ln -sf "$monge" .monge/build/monge
+step() { sed -n 's/^ *run: \(\.monge.*\)/\1/p' "$tools/goldens.yml" >step; last='the step of the workflow'; sh step >out 2>err; status=$?; ok "the step of the workflow is $1" [ $status -eq "$1" ]; }
+step 1; says new one; there monge-report/index.html; there monge-report/junit.xml
+exits 0 accept --golden goldens; step 0
+have python3 && python3 -c 'import yaml' 2>/dev/null && for file in "$tools"/*.yml; do
+    ok "$file is YAML" python3 -c 'import sys, yaml; assert yaml.safe_load(open(sys.argv[1]))["jobs"]' "$file"
+done
+if have git; then
+    export GIT_CONFIG_GLOBAL=/dev/null GIT_AUTHOR_NAME=a GIT_AUTHOR_EMAIL=a GIT_COMMITTER_NAME=a GIT_COMMITTER_EMAIL=a
+    rm -rf monge-test monge-report
+    git init -q . && git add s goldens && cp "$tools/pre-commit" .git/hooks/pre-commit
+    commit() { last='git commit'; MONGE=$monge git commit -qm "$2" >out 2>err; status=$?; ok "git commit is $1: $2" [ $status -eq "$1" ]; }
+    commit 0 'goldens as they are'
+    scene s/one.yaml blue
+    commit 1 'nothing to commit' # git says so itself
+    git add s; commit 1 'a scene that changes'; err_has '`'"$monge"' accept --golden goldens` takes what is meant'
+    exits 1 test --golden goldens -q; exits 0 accept --golden goldens
+    commit 1 'the golden is not in the index'
+    git add goldens; commit 0 'a scene with its golden'
+    echo '# comment' >>s/two.yaml; git add s; commit 0 'a scene that stays as it looks'
+    rm -rf .git
+fi
+rm -rf goldens
+
+# ---- What goes wrong ----
+
+fresh
+echo '{"a": 1}' >here.json; mkdir other; cp here.json other/results.json
+exits 2 test s --golden g --output other; err_has 'other/results.json: no results of `monge test`'; there other/results.json; no_out
+exits 2 accept --golden g --output other; err_has 'no results of'
+exits 1 test s --golden g -q
+exits 2 accept --golden other; err_has 'the last run was with the goldens of g'
+sed 's/"name": "one"/"name": "..\/one"/' monge-test/results.json >x; cp x monge-test/results.json
+exits 2 accept --golden g; err_has '`../one` is no name of a golden'; missing one.png
+exits 1 test s --golden g -q
+cp monge-test/new/two.png monge-test/new/one.png
+exits 1 accept --golden g; err_has 'one is left as it is: its new picture is not that of the run'
+exits 1 test s --golden g -q; rm monge-test/new/one.png
+exits 1 accept --golden g; err_has 'one is left as it is: its new picture cannot be read any more'
+exits 1 test s --golden g -q
+sed "s/\"program\": \"[0-9a-f]*\", \"size\"/\"program\": \"$hash\", \"size\"/" monge-test/results.json >x; cp x monge-test/results.json
+rm -rf g; mkdir g; exits 1 accept --golden g; err_has 'the program has changed since the run'; ok 'nothing is taken' [ -z "$(ls g)" ]
+echo keep >file; exits 2 test s --golden g --output file; err_has 'file'; ok 'a file is no folder' [ "$(cat file)" = keep ]
+mkdir mine; echo text >mine/own; exits 1 test s --golden g --output mine -q; missing mine/.gitignore; there mine/own
+exits 2 test s --golden g --junit none/dir/\0/x.xml --output file
+if [ "$(id -u)" -ne 0 ]; then
+    mkdir sealed; chmod 500 sealed
+    exits 2 test s --golden g --output sealed/run; err_has 'cannot make the folder sealed/run'
+    chmod 700 sealed
+fi
+last='test with a full disk'
+rm -rf monge-test
+(trap '' XFSZ; ulimit -f 0; "$monge" test s --golden g -q 2>err | cat >out; exit "${PIPESTATUS[0]}"); status=$?
+ok 'a full disk is exit 2' [ $status -eq 2 ]
+ok 'no temporary files' [ -z "$(find . -name '*.tmp')" ]
+if have perl; then
+    fresh; sed -i 's/40, 30/3000, 3000/; s/samples: 1/samples: 4096/' s/one.yaml
+    last='test (SIGINT)'
+    perl -e 'my $p = fork; exec @ARGV if !$p; select undef, undef, undef, 0.5; kill INT => $p; waitpid $p, 0; exit(($? & 127) == 2 ? 0 : 1)' \
+        "$monge" test s --golden g >out 2>err; status=$?
+    ok 'SIGINT ends the run by the signal' [ $status -eq 0 ]; missing monge-test/results.json
+fi
+
+echo "$passed passed, $failed failed"
+[ "$failed" -eq 0 ]
