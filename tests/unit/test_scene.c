@@ -1,6 +1,7 @@
 /* From a text to flat arrays: places, materials, defaults and the hash. */
 #include "base/elementary.h"
 #include "loading.h"
+#include "scene/builder.h"
 
 /* ---- Two texts that must become the same primitives, to rounding ---- */
 
@@ -787,6 +788,35 @@ static void check_equal_hash(void **state) {
     assert_memory_equal(&a, &b, sizeof a);
 }
 
+/* ---- The most of one kind ---- */
+
+/* Sets that say they are full: nothing is written. */
+static void more_than_can_be_numbered_is_refused(void **state) {
+    (void)state;
+    static const char *const shapes[] = {"{sphere: {}}", "{plane: {}}", "{box: {}}"};
+    for (size_t i = 0; i < COUNT(shapes) + 1; i++) {
+        struct loaded l = {0};
+        struct lang_sink sink;
+        struct builder *b = scene_begin(&l.arena, &l.diag, &l.scene, &sink);
+        struct primitives *p = &b->set->primitives;
+        p->sphere_count = p->flat_count = p->quadric_count = p->instance_count = PRIMITIVE_MAX - 1;
+        if (i < COUNT(shapes)) {
+            char text[100];
+            snprintf(text, sizeof text, "scene: [%s]\n", shapes[i]);
+            const struct lang_input input = loading_input(&l.memory, text, &sink);
+            lang_read(&l.memory, &l.diag, &input);
+        } else {
+            instance_add(b, (struct span){0}, AFFINE_IDENTITY, 0, 0);
+        }
+        assert_int_equal(l.diag.errors, 1);
+        assert_string_equal(l.diag.first->code, "limit-objects");
+        assert_int_equal(p->count, 0);
+        assert_true(p->sphere_count == PRIMITIVE_MAX - 1 && p->flat_count == PRIMITIVE_MAX - 1 &&
+                    p->quadric_count == PRIMITIVE_MAX - 1 && p->instance_count == PRIMITIVE_MAX - 1);
+        unload(&l);
+    }
+}
+
 #define ROWS(table, check)                                                                                   \
     for (size_t i = 0; i < COUNT(table); i++) tests[n++] = (struct CMUnitTest) {                             \
             table[i].name, check, NULL, NULL, &table[i]                                                      \
@@ -823,6 +853,7 @@ int main(void) {
         cmocka_unit_test(defaults_are_those_of_the_grammar),
         cmocka_unit_test(empty_mappings_change_nothing),
         cmocka_unit_test(errors_of_an_earlier_scene_do_not_stop_this_one),
+        cmocka_unit_test(more_than_can_be_numbered_is_refused),
     };
     return cmocka_run_group_tests_name("rows", tests, NULL, NULL) +
            cmocka_run_group_tests_name("scene", others, NULL, NULL);
