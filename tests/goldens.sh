@@ -2,18 +2,36 @@
 # Renders every scene of scenes/report/ and scenes/gallery/ and compares its pixels with tests/golden/NAME.png: they must be
 # equal. Then renders each small with 1, 2 and 5 threads, and in four regions: again the same pixels.
 #   tests/goldens.sh [PROGRAM] [--update]
+#   tests/goldens.sh --list     only says what there is: NAME SCENE OPTIONS, a line each
 # The new pictures stay in goldens/ beside the program; --update makes them the goldens. The golden of
 # chess.yaml is the README's picture too: of the scene's own size.
 set -u
 cd "$(dirname "$0")/.." || exit 2
-program=build/monge update=''
+program=build/monge update='' list=''
 for word; do
     case $word in
     --update) update=1 ;;
-    -*) echo "usage: tests/goldens.sh [PROGRAM] [--update]" >&2; exit 2 ;;
+    --list) list=1 ;;
+    -*) echo "usage: tests/goldens.sh [PROGRAM] [--update | --list]" >&2; exit 2 ;;
     *) program=$word ;;
     esac
 done
+scenes=$(ls scenes/report/*.yaml scenes/gallery/*.yaml scenes/presets.yaml)
+# The repository should not swell: most goldens are half the size of their scene.
+size_of() {
+    case $(basename "$1" .yaml) in
+    view1 | view2 | chess) ;;
+    final) echo '--samples 16' ;;
+    figure1) echo '--size 320x240' ;;
+    king) echo '--size 270x360' ;;
+    *) case $1 in scenes/report/*) echo '--size 360x240' ;; *) echo '--size 192x128 --samples 1' ;; esac ;;
+    esac
+}
+if [ -n "$list" ]; then
+    for file in $scenes; do echo "$(basename "$file" .yaml) $file $(size_of "$file")"; done
+    exit 0
+fi
+
 [ -x "$program" ] || { echo "goldens: no program $program" >&2; exit 2; }
 case $program in /*) ;; *) program=./$program ;; esac
 pictures=$(dirname "$program")/goldens
@@ -64,16 +82,9 @@ regions() {
     done
 }
 
-for file in scenes/report/*.yaml scenes/gallery/*.yaml scenes/presets.yaml; do
+for file in $scenes; do
     name=$(basename "$file" .yaml)
-    # The repository should not swell: most goldens are half the size of their scene.
-    case $name in
-    view1 | view2 | chess) size='' ;;
-    final) size='--samples 16' ;;
-    figure1) size='--size 320x240' ;;
-    king) size='--size 270x360' ;;
-    *) case $file in scenes/report/*) size='--size 360x240' ;; *) size='--size 192x128 --samples 1' ;; esac ;;
-    esac
+    size=$(size_of "$file")
     scene=$file
     check "$file" 'the golden picture' golden
     check "$file" '1, 2 and 5 threads' threads
