@@ -366,17 +366,25 @@ static void check_bounds(void **state) {
 static void check_bounds_of_hits(void **state) {
     (void)state;
     const vec3 gap = {1e-9, -1e-9, 1e-9};
-    for (int i = 0; i < 6; i++) {
-        const double side = i % 2 ? 1 : -1;
-        const vec3 d = {i / 2 == 0 ? side : 0, i / 2 == 1 ? side : 0, i / 2 == 2 ? side : 0};
+    for (int i = 0; i < 18; i++) {
+        const double side = i % 2 ? 1 : -1, size = i < 6 ? 1 : i < 12 ? 1e3 : 1e-3;
+        const int axis = i / 2 % 3;
+        const vec3 d = {axis == 0 ? side : 0, axis == 1 ? side : 0, axis == 2 ? side : 0};
         struct alone a;
-        make(&a, ELLIPSOID);
-        a.quadric.object_from_world = affine_translate(vec3_neg(gap));
-        const vec3 hit = vec3_add(d, gap);
-        const box3 got = shape_bounds(&a.p, a.ref);
-        assert_true(got.min.x <= hit.x && got.min.y <= hit.y && got.min.z <= hit.z);
-        assert_true(got.max.x >= hit.x && got.max.y >= hit.y && got.max.z >= hit.z);
-        assert_vec3_near(got.max, (vec3){1, 1, 1}, 4e-9, "max");
+        alone_quadric(&a, &forms[ELLIPSOID], affine_scale(vec3_all(size)));
+        a.quadric.object_from_world =
+            affine_compose(a.quadric.object_from_world, affine_translate(vec3_neg(gap)));
+        const struct instance placed = {a.quadric.object_from_world, a.quadric.world_from_object, 0, 0};
+        const vec3 hit = vec3_madd(gap, size, d);
+        const box3 both[] = {shape_bounds(&a.p, a.ref),
+                             shape_placed_bounds(&placed, (box3)BOX(-1, -1, -1, 1, 1, 1))};
+        for (int k = 0; k < 2; k++) {
+            const box3 got = both[k];
+            assert_true(got.min.x <= hit.x && got.min.y <= hit.y && got.min.z <= hit.z);
+            assert_true(got.max.x >= hit.x && got.max.y >= hit.y && got.max.z >= hit.z);
+            assert_vec3_near(got.max, vec3_all(size), 4e-9, "max");
+            assert_vec3_near(got.min, vec3_all(-size), 4e-9, "min");
+        }
     }
 }
 
