@@ -73,7 +73,7 @@ SUBMAKE = $(MAKE) --no-print-directory $(if $(findstring -j,$(MAKEFLAGS)),,-j$(J
 # ---- What people ask for ----
 
 .DEFAULT_GOAL := all
-.PHONY: node-deps all demo test check tsan same kill fuzz coverage bench reference format lint deps install uninstall clean help
+.PHONY: node-deps all demo test check tsan same kill fuzz coverage mutants bench reference format lint deps install uninstall clean help
 
 all: ## build the program, build/monge
 	@tools/deps --check
@@ -113,6 +113,15 @@ kill: all ## kill batches at 200 random moments, and look at what they leave
 
 fuzz: deps ## a minute of hostile bytes for the loader (libFuzzer where clang has it)
 	tests/fuzz/run.sh 60 $(BUILD)/fuzz
+
+# A copy, so that nobody's work is in the way; optimized, as some ways make no difference to what is compiled.
+N ?= 200
+SEED ?= 1
+mutants: deps ## break the geometry, shading and sampling in N=200 small ways, one at a time: what do the tests notice? SEED=1
+	@mkdir -p $(BUILD)/mutants && cd $(BUILD)/mutants && rm -rf grammar scenes src tests tools
+	@cp -Rp LICENSE Makefile README.md grammar scenes src tests tools $(BUILD)/mutants
+	+@$(SUBMAKE) -C $(BUILD)/mutants run-mutants BUILD=build CFLAGS=-O2 VARIANT="-fPIC -fno-semantic-interposition" \
+	    N=$(N) SEED=$(SEED)
 
 coverage: deps node-deps ## the tests with gcc's line coverage, per file of src/; fails below 90 %, or at an error that no test makes
 	@find $(BUILD)/coverage -name '*.gcda' -delete 2>/dev/null || true
@@ -188,12 +197,16 @@ uninstall: ## remove what install put there
 
 # ---- How it is made ----
 
-.PHONY: build-program build-all run-tests FORCE
+.PHONY: build-program build-all run-tests run-mutants FORCE
 .SECONDARY:
 .DELETE_ON_ERROR:
 
 build-program: $(BUILD)/monge
 build-all: $(PROGRAM) $(BUILD)/libmonge.a $(UNIT:tests/unit/%.c=$(BUILD)/tests/%)
+
+run-mutants: build-all $(BUILD)/tools/mutate
+	@CC='$(CC)' COMPILE='$(COMPILE)' LINK='$(LINK)' LIBS='$(LIBS)' VERSION=$(VERSION) JOBS=$(JOBS) \
+	    tools/mutants $(BUILD) $(N) $(SEED)
 
 run-tests: $(UNIT_PROGRAMS) $(PROGRAM_OF_TESTS)
 	@CC='$(CC)' FLAGS='$(LANGUAGE) $(WARNINGS) $(PKG_CFLAGS)' JOBS=$(JOBS) SHOW='$(T)' \
@@ -221,7 +234,7 @@ $(BUILD)/tools/grammar: $(call object,$(wildcard tools/grammar/*.c)) $(TOOL_OBJE
 	$(call say,link,$@)
 	$(QUIET)$(LINK) -o $@ $^ $(LIBS)
 
-$(BUILD)/tools/measure $(BUILD)/tools/yaml_events: $(BUILD)/tools/%: $(BUILD)/obj/tools/%.o
+$(BUILD)/tools/measure $(BUILD)/tools/mutate $(BUILD)/tools/yaml_events: $(BUILD)/tools/%: $(BUILD)/obj/tools/%.o
 	@mkdir -p $(@D)
 	$(call say,link,$@)
 	$(QUIET)$(LINK) -o $@ $^ $(LIBS)

@@ -42,7 +42,10 @@ static vec3 perspective_eye(const struct accel *accel, const struct view *view, 
     stand(accel, view, view->right, tan_x / margin, through, &x, &back_x);
     stand(accel, view, view->up, tan_y / margin, through, &y, &back_y);
     const vec3 across = vec3_madd(vec3_scale(view->right, x), y, view->up);
-    return vec3_madd(across, -box3_upper(back_x, back_y), view->forward);
+    /* A corner blunter than the view would be where the eye is: that stays in front of everything. */
+    const double front = reach(accel, vec3_neg(view->forward)), depth = front + reach(accel, view->forward);
+    const double back = box3_upper(front + 0.01 * depth, box3_upper(back_x, back_y));
+    return vec3_madd(across, -back, view->forward);
 }
 
 /* An orthographic camera stands in front of everything. */

@@ -28,6 +28,47 @@ static struct row {
     {"half of space beside the ball",
      {UNIT_BALL, .clip = {{1.1, -INFINITY, -INFINITY}, {INFINITY, INFINITY, INFINITY}}},
      true},
+    {"(x + y)^2 / 2 = -1", {.xx = 0.5, .yy = 0.5, .xy = 1, .constant = 1, .clip = EVERYWHERE}, true},
+    {"(y + z)^2 / 2 = -1", {.yy = 0.5, .zz = 0.5, .yz = 1, .constant = 1, .clip = EVERYWHERE}, true},
+    {"(z + x)^2 / 2 = -1", {.zz = 0.5, .xx = 0.5, .zx = 1, .constant = 1, .clip = EVERYWHERE}, true},
+    {"(x + y + z)^2 = -1",
+     {.xx = 1, .yy = 1, .zz = 1, .xy = 2, .yz = 2, .zx = 2, .constant = 1, .clip = EVERYWHERE},
+     true},
+    {"x^2 + (x - 2 y)^2 + (y - 3 z)^2 = -1",
+     {.xx = 2, .yy = 5, .zz = 9, .xy = -4, .yz = -6, .constant = 1, .clip = EVERYWHERE},
+     true},
+    {"x^2 + (x - 2 y)^2 - (y - 3 z)^2 = -1",
+     {.xx = 2, .yy = 3, .zz = -9, .xy = -4, .yz = 6, .constant = 1, .clip = EVERYWHERE},
+     false},
+    {"(x + y + 1)^2 = -1",
+     {.xx = 1, .yy = 1, .xy = 2, .x = 2, .y = 2, .constant = 2, .clip = EVERYWHERE},
+     true},
+    {"(x + y + 1)^2 = 0",
+     {.xx = 1, .yy = 1, .xy = 2, .x = 2, .y = 2, .constant = 1, .clip = EVERYWHERE},
+     false},
+    {"(y + z + 1)^2 = -1",
+     {.yy = 1, .zz = 1, .yz = 2, .y = 2, .z = 2, .constant = 2, .clip = EVERYWHERE},
+     true},
+    {"(z + x + 1)^2 = -1",
+     {.zz = 1, .xx = 1, .zx = 2, .z = 2, .x = 2, .constant = 2, .clip = EVERYWHERE},
+     true},
+    {"(x + y)^2 + z = -1", {.xx = 1, .yy = 1, .xy = 2, .z = 1, .constant = 1, .clip = EVERYWHERE}, false},
+    {"-(x + y)^2 = 1", {.xx = -1, .yy = -1, .xy = -2, .constant = -1, .clip = EVERYWHERE}, true},
+    {"x^2 = -1, of any size: small", {.xx = 1e-9, .constant = 1e-9, .clip = EVERYWHERE}, true},
+    {"x^2 = -1, of any size: large", {.xx = 1e9, .constant = 1e9, .clip = EVERYWHERE}, true},
+    {"x y = -1 for x > 1", {.xy = 1, .constant = 1, .clip = {{1, -INFINITY, 0}, {9, INFINITY, 1}}}, false},
+    {"above the ball", {UNIT_BALL, .clip = {{-9, 1.1, -9}, {9, INFINITY, 9}}}, true},
+    {"below the ball", {UNIT_BALL, .clip = {{-9, -INFINITY, -9}, {9, -1.1, 9}}}, true},
+    {"in front of the ball", {UNIT_BALL, .clip = {{-9, -9, 1.1}, {9, 9, INFINITY}}}, true},
+    {"behind the ball", {UNIT_BALL, .clip = {{-9, -9, -INFINITY}, {9, 9, -1.1}}}, true},
+    {"left of the ball", {UNIT_BALL, .clip = {{-INFINITY, -9, -9}, {-1.1, 9, 9}}}, true},
+    {"x y = 7 for less", {.xy = 1, .constant = -7, .clip = {{1, 2, 0}, {2, 3, 1}}, .open = true}, true},
+    {"x y = 5 within", {.xy = 1, .constant = -5, .clip = {{1, 2, 0}, {2, 3, 1}}, .open = true}, false},
+    {"x y = 1 for more", {.xy = 1, .constant = -1, .clip = {{1, 2, 0}, {2, 3, 1}}}, true},
+    {"y z = 7 for less", {.yz = 1, .constant = -7, .clip = {{0, 1, 2}, {1, 2, 3}}, .open = true}, true},
+    {"y z = 5 within", {.yz = 1, .constant = -5, .clip = {{0, 1, 2}, {1, 2, 3}}, .open = true}, false},
+    {"z x = 7 for less", {.zx = 1, .constant = -7, .clip = {{1, 0, 2}, {2, 1, 3}}, .open = true}, true},
+    {"z x = 5 within", {.zx = 1, .constant = -5, .clip = {{1, 0, 2}, {2, 1, 3}}, .open = true}, false},
     {"a plane in half of space",
      {.x = 1, .clip = {{-1, -INFINITY, -INFINITY}, {INFINITY, INFINITY, INFINITY}}},
      false},
@@ -36,6 +77,36 @@ static struct row {
 static void check_row(void **state) {
     const struct row *row = *state;
     assert_int_equal(form_is_empty(&row->form), row->empty);
+}
+
+/* ---- Boxes inside ---- */
+
+static struct held {
+    const char *name;
+    box3 box;
+    bool held;
+} boxes[] = {
+    {"a box well within", {{-0.4, -0.4, -0.4}, {0.4, 0.4, 0.4}}, true},
+    {"at the face of min x", {{-0.5, -0.1, -0.1}, {0.1, 0.1, 0.1}}, false},
+    {"at the face of min y", {{-0.1, -0.5, -0.1}, {0.1, 0.1, 0.1}}, false},
+    {"at the face of min z", {{-0.1, -0.1, -0.5}, {0.1, 0.1, 0.1}}, false},
+    {"at the face of max x", {{-0.1, -0.1, -0.1}, {0.5, 0.1, 0.1}}, false},
+    {"at the face of max y", {{-0.1, -0.1, -0.1}, {0.1, 0.5, 0.1}}, false},
+    {"at the face of max z", {{-0.1, -0.1, -0.1}, {0.1, 0.1, 0.5}}, false},
+    {"nearly to a corner", {{0, 0, 0}, {0.49, 0.49, 0.49}}, true},
+};
+
+/* Of a ball within a box from -0.5 to 0.5 that it fills, corners and all. */
+static void check_held(void **state) {
+    const struct held *row = *state;
+    struct quadric_form form = {.xx = 1,
+                                .yy = 1,
+                                .zz = 1,
+                                .constant = -0.75,
+                                .clip = {{-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}}};
+    assert_int_equal(form_holds_box(&form, row->box), row->held);
+    form.open = true;
+    assert_false(form_holds_box(&form, row->box));
 }
 
 static double value_at(const struct quadric_form *f, vec3 p) {
@@ -77,9 +148,12 @@ static void check_random(void **state) {
 }
 
 int main(void) {
-    struct CMUnitTest tests[COUNT(rows) + 1];
+    struct CMUnitTest tests[COUNT(rows) + COUNT(boxes) + 1];
+    size_t n = 0;
     for (size_t i = 0; i < COUNT(rows); i++)
-        tests[i] = (struct CMUnitTest){rows[i].name, check_row, NULL, NULL, &rows[i]};
-    tests[COUNT(rows)] = (struct CMUnitTest){"random forms", check_random, NULL, NULL, NULL};
+        tests[n++] = (struct CMUnitTest){rows[i].name, check_row, NULL, NULL, &rows[i]};
+    for (size_t i = 0; i < COUNT(boxes); i++)
+        tests[n++] = (struct CMUnitTest){boxes[i].name, check_held, NULL, NULL, &boxes[i]};
+    tests[n++] = (struct CMUnitTest){"random forms", check_random, NULL, NULL, NULL};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -9,6 +9,9 @@
 #include <string.h>
 
 #include <cmocka.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 #include "monge.h"
 #include "render/camera.h"
@@ -199,6 +202,115 @@ static void test_scale_of_the_world(void **state) {
     free(text);
 }
 
+/* ---- What is told of a rendering ---- */
+
+#define FACING_A_PLANE                                                                                       \
+    "image: {size: [7, 5], samples: 3}\ncamera: {projection: orthographic, height: 1, eye: [0, 0, 2], "      \
+    "direction: [0, 0, -1]}\n"
+enum { RAYS = 7 * 5 * 3 };
+
+static struct counts {
+    const char *name, *scene;
+    uint64_t rays[MONGE_RAY_KINDS];
+} counts[] = {
+    {"rays of a lit plane", "lights: [{point: {at: [0, 0, 9]}}]\nscene: [{plane: {}}]", {RAYS, RAYS, 0, 0}},
+    {"two lights, two shadow rays",
+     "lights: [{point: {at: [0, 0, 9]}}, {point: {at: [0, 1, 9]}}, {ambient: {}}]\nscene: [{plane: {}}]",
+     {RAYS, 2 * RAYS, 0, 0}},
+    {"none to a light behind", "lights: [{point: {at: [0, 0, -9]}}]\nscene: [{plane: {}}]", {RAYS, 0, 0, 0}},
+    {"none without shadows",
+     "render: {shadow: 1}\nlights: [{point: {at: [0, 0, 9]}}]\nscene: [{plane: {}}]",
+     {RAYS, 0, 0, 0}},
+    {"none for the background",
+     "lights: [{point: {at: [0, 0, 9]}}]\nscene: [{plane: {point: [0, 0, 3]}}]",
+     {RAYS, 0, 0, 0}},
+    {"a mirror",
+     "lights: []\nscene: [{plane: {}, material: {diffuse: black, reflection: 0.5}}]",
+     {RAYS, 0, RAYS, 0}},
+    {"a sheet of glass",
+     "lights: []\nscene: [{plane: {}, material: {diffuse: black, reflection: 0.5, refraction: 0.5}}]",
+     {RAYS, 0, RAYS, RAYS}},
+    {"no deeper than the depth",
+     "render: {depth: 4}\nlights: []\nmaterials: {m: {diffuse: black, reflection: 1}}\nscene: [{plane: {}, "
+     "material: m}, {plane: {point: [0, 0, 3]}, material: m}]",
+     {RAYS, 0, 3 * RAYS, 0}},
+    {"signatures ask for nothing more",
+     "render: {shading: signature}\nlights: [{point: {at: [0, 0, 9]}}]\nscene: [{plane: {}, material: "
+     "{reflection: 1}}]",
+     {RAYS, 0, 0, 0}},
+};
+
+static void check_counts(void **state) {
+    const struct counts *row = *state;
+    char text[1000];
+    snprintf(text, sizeof text, "%s%s\n", FACING_A_PLANE, row->scene);
+    struct monge_scene *scene = load(text);
+    const struct monge_settings settings = monge_scene_settings(scene);
+    const struct monge_job job = {.threads = 3};
+    struct monge_stats stats = {0};
+    monge_film_free(monge_render(scene, &settings, NULL, &job, &stats));
+    for (int kind = 0; kind < MONGE_RAY_KINDS; kind++) assert_int_equal(stats.rays[kind], row->rays[kind]);
+    monge_scene_free(scene);
+}
+
+struct told {
+    uint64_t done, total;
+    unsigned calls;
+};
+
+static void tell(void *context, uint64_t done, uint64_t total) {
+    struct told *told = context;
+    assert_true(told->done < done && done <= total);
+    *told = (struct told){done, total, told->calls + 1};
+}
+
+static void test_progress(void **state) {
+    (void)state;
+    struct monge_scene *scene = load("image: {size: [100, 70], samples: 1}\nscene: [{sphere: {}}]\n");
+    const struct monge_settings settings = monge_scene_settings(scene);
+    const struct monge_region regions[] = {{0, 0, 100, 70}, {3, 5, 64, 32}, {9, 9, 1, 1}};
+    for (size_t i = 0; i < sizeof regions / sizeof *regions; i++) {
+        const uint64_t pixels = (uint64_t)regions[i].width * regions[i].height;
+        struct told told = {0};
+        const struct monge_job job = {.threads = 1, .progress = tell, .context = &told};
+        struct monge_stats stats;
+        monge_film_free(monge_render(scene, &settings, &regions[i], &job, &stats));
+        assert_int_equal(told.done, pixels);
+        assert_int_equal(told.total, pixels);
+        assert_int_equal(stats.rays[MONGE_RAY_CAMERA], pixels);
+        assert_int_equal(stats.threads, 1);
+        assert_true(told.calls == pixels || told.calls == (i == 0 ? 12 : i == 1 ? 2 : 1)); /* tiles */
+    }
+    monge_scene_free(scene);
+}
+
+static void test_no_more_threads_than_tiles(void **state) {
+    (void)state;
+    struct monge_scene *scene = load("image: {size: [9, 9], samples: 1}\nscene: [{sphere: {}}]\n");
+    const struct monge_settings settings = monge_scene_settings(scene);
+    const struct monge_region one = {3, 3, 1, 1};
+    const struct monge_job job = {.threads = 8};
+    struct monge_stats stats;
+    monge_film_free(monge_render(scene, &settings, &one, &job, &stats));
+    assert_int_equal(stats.threads, 1);
+    monge_scene_free(scene);
+}
+
+#ifdef __GLIBC__
+/* The film is all that a rendering leaves, once malloc has filled its own caches. */
+static void test_memory(void **state) {
+    (void)state;
+    struct monge_scene *scene = load("image: {size: [9, 9], samples: 1}\nscene: [{sphere: {}}]\n");
+    size_t used[40];
+    for (int i = 0; i < 40; i++) {
+        monge_film_free(render(scene, NULL, 1));
+        used[i] = mallinfo2().uordblks;
+    }
+    assert_int_equal(used[20], used[39]);
+    monge_scene_free(scene);
+}
+#endif
+
 /* ---- Cameras ---- */
 
 static void assert_vec3(vec3 got, vec3 want, double tolerance) {
@@ -268,6 +380,8 @@ static void test_framing(void **state) {
     static const char *const objects[] = {
         "{sphere: {}}",
         "{sphere: {center: [100, -50, 3], radius: 0.001}}",
+        "{square: {center: [1, 2, 3], size: 4}, transform: [{rotate: {x: -30}}, {rotate: {y: -20}}]}",
+        "{disc: {center: [5, 0, 0], radius: 3}, transform: [{rotate: {x: -30}}, {rotate: {y: -20}}]}",
         "{box: {max: [50, 0.5, 0.5]}}",
         "{box: {max: [0.5, 50, 0.5]}}",
         "{box: {min: [-40, -0.5, -0.5]}, transform: {rotate: {y: 70}}}",
@@ -315,11 +429,24 @@ static void test_framing(void **state) {
 }
 
 int main(void) {
+    struct CMUnitTest rows[sizeof counts / sizeof *counts];
+    for (size_t i = 0; i < sizeof counts / sizeof *counts; i++)
+        rows[i] = (struct CMUnitTest){counts[i].name, check_counts, NULL, NULL, &counts[i]};
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_threads),       cmocka_unit_test(test_regions),
-        cmocka_unit_test(test_tiles),         cmocka_unit_test(test_scale_of_the_world),
-        cmocka_unit_test(test_perspective),   cmocka_unit_test(test_orthographic),
-        cmocka_unit_test(test_straight_down), cmocka_unit_test(test_framing),
+        cmocka_unit_test(test_progress),
+        cmocka_unit_test(test_no_more_threads_than_tiles),
+#ifdef __GLIBC__
+        cmocka_unit_test(test_memory),
+#endif
+        cmocka_unit_test(test_threads),
+        cmocka_unit_test(test_regions),
+        cmocka_unit_test(test_tiles),
+        cmocka_unit_test(test_scale_of_the_world),
+        cmocka_unit_test(test_perspective),
+        cmocka_unit_test(test_orthographic),
+        cmocka_unit_test(test_straight_down),
+        cmocka_unit_test(test_framing),
     };
-    return cmocka_run_group_tests_name("render", tests, NULL, NULL);
+    return cmocka_run_group_tests_name("rays", rows, NULL, NULL) +
+           cmocka_run_group_tests_name("render", tests, NULL, NULL);
 }

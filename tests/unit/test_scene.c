@@ -672,6 +672,8 @@ static void one_more_than_may_be_of_a_kind(void **state) {
         assert_int_equal(d->place.line, 2);
     }
     assert_int_equal(p->count, 0);
+    assert_true(p->sphere_count == PRIMITIVE_MAX - 1 && p->flat_count == PRIMITIVE_MAX - 1 &&
+                p->quadric_count == PRIMITIVE_MAX - 1 && p->instance_count == PRIMITIVE_MAX - 1);
     unload(&l);
 }
 
@@ -809,6 +811,8 @@ static void check_equal_hash(void **state) {
     const struct hash a = hash_of(row->a), b = hash_of(row->b);
     assert_memory_equal(&a, &b, sizeof a);
 }
+
+/* ---- The most of one kind ---- */
 
 #define ROWS(table, check)                                                                                   \
     for (size_t i = 0; i < COUNT(table); i++) tests[n++] = (struct CMUnitTest) {                             \

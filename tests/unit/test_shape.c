@@ -30,7 +30,17 @@ static const struct quadric_form quarter = {.xx = 1,
                                             .constant = -1,
                                             .clip = BOX(0, 0, -INFINITY, INFINITY, INFINITY, 1),
                                             .extent = BOX3_ALL};
-enum { SPACE = STRETCHED + 1, QUARTER };
+enum { SPACE = STRETCHED + 1, QUARTER, LEANING };
+
+/* With one term more than ellipses about z have, each keeps the extent that it is given. */
+#define EXTENT(x, y) .clip = SLAB(-1, 1), .extent = BOX(-(x), -(y), -1, x, y, 1)
+static const struct quadric_form leaning[] = {
+    {.xx = 1, .yy = 1, .x = -2, .constant = -1, EXTENT(3, 2)},
+    {.xx = 1, .yy = 1, .y = 2, .constant = -1, EXTENT(2, 3)},
+    {.xx = 1, .yy = 1, .xy = 1, .constant = -1, EXTENT(1.25, 1.25)},
+    {.xx = 1, .yy = 1, .yz = 1, .constant = -1, EXTENT(1.25, 1.75)},
+    {.xx = 1, .yy = 1, .zx = 1, .constant = -1, EXTENT(1.75, 1.25)},
+};
 
 static void make(struct alone *a, int shape) {
     switch (shape) {
@@ -44,6 +54,11 @@ static void make(struct alone *a, int shape) {
     case STRETCHED: alone_quadric(a, &forms[ELLIPSOID], affine_scale((vec3){1, 2, 3})); return;
     case SPACE: alone_quadric(a, &space, AFFINE_IDENTITY); return;
     case QUARTER: alone_quadric(a, &quarter, AFFINE_IDENTITY); return;
+    case LEANING:
+    case LEANING + 1:
+    case LEANING + 2:
+    case LEANING + 3:
+    case LEANING + 4: alone_quadric(a, &leaning[shape - LEANING], AFFINE_IDENTITY); return;
     default: alone_quadric(a, &forms[shape], AFFINE_IDENTITY); return;
     }
 }
@@ -323,6 +338,11 @@ static struct bounds_row {
     {"box", CUBE, BOX(-0.5, -0.5, -0.5, 0.5, 0.5, 0.5)},
     {"hyperboloid, tighter than its extent", HYPERBOLOID,
      BOX(-1.4142135623730951, -1.4142135623730951, -1, 1.4142135623730951, 1.4142135623730951, 1)},
+    {"a term in x: its extent", LEANING, BOX(-3, -2, -1, 3, 2, 1)},
+    {"a term in y", LEANING + 1, BOX(-2, -3, -1, 2, 3, 1)},
+    {"a term in x y", LEANING + 2, BOX(-1.25, -1.25, -1, 1.25, 1.25, 1)},
+    {"a term in y z", LEANING + 3, BOX(-1.25, -1.75, -1, 1.25, 1.75, 1)},
+    {"a term in z x", LEANING + 4, BOX(-1.75, -1.25, -1, 1.75, 1.25, 1)},
     {"no end", SPACE, BOX(-INFINITY, -INFINITY, -INFINITY, INFINITY, INFINITY, INFINITY)},
 };
 
@@ -346,23 +366,51 @@ static void check_bounds(void **state) {
 static void check_bounds_of_hits(void **state) {
     (void)state;
     const vec3 gap = {1e-9, -1e-9, 1e-9};
-    for (int i = 0; i < 6; i++) {
-        const double side = i % 2 ? 1 : -1;
-        const vec3 d = {i / 2 == 0 ? side : 0, i / 2 == 1 ? side : 0, i / 2 == 2 ? side : 0};
+    for (int i = 0; i < 18; i++) {
+        const double side = i % 2 ? 1 : -1, size = i < 6 ? 1 : i < 12 ? 1e3 : 1e-3;
+        const int axis = i / 2 % 3;
+        const vec3 d = {axis == 0 ? side : 0, axis == 1 ? side : 0, axis == 2 ? side : 0};
         struct alone a;
-        make(&a, ELLIPSOID);
-        a.quadric.object_from_world = affine_translate(vec3_neg(gap));
-        const vec3 hit = vec3_add(d, gap);
+        alone_quadric(&a, &forms[ELLIPSOID], affine_scale(vec3_all(size)));
+        a.quadric.object_from_world =
+            affine_compose(a.quadric.object_from_world, affine_translate(vec3_neg(gap)));
+        const struct instance placed = {a.quadric.object_from_world, a.quadric.world_from_object, 0, 0};
+        const vec3 hit = vec3_madd(gap, size, d);
+        const box3 both[] = {shape_bounds(&a.p, a.ref),
+                             shape_placed_bounds(&placed, (box3)BOX(-1, -1, -1, 1, 1, 1))};
+        for (int k = 0; k < 2; k++) {
+            const box3 got = both[k];
+            assert_true(got.min.x <= hit.x && got.min.y <= hit.y && got.min.z <= hit.z);
+            assert_true(got.max.x >= hit.x && got.max.y >= hit.y && got.max.z >= hit.z);
+            assert_vec3_near(got.max, vec3_all(size), 4e-9, "max");
+            assert_vec3_near(got.min, vec3_all(-size), 4e-9, "min");
+        }
+    }
+}
+
+/* The same where they differ in scale: by most far from the origin, on whichever side of it. */
+static void check_bounds_of_scaled_hits(void **state) {
+    (void)state;
+    for (int i = 0; i < 4; i++) {
+        const double scale = i & 1 ? 1 + 1e-9 : 1 - 1e-9;
+        const vec3 center = vec3_scale((vec3){2, 3, 4}, i & 2 ? 1 : -1);
+        struct alone a;
+        alone_quadric(&a, &forms[CUBE], affine_translate(center));
+        a.quadric.object_from_world =
+            affine_compose(a.quadric.object_from_world, affine_scale(vec3_all(1 / scale)));
+        const vec3 min = vec3_scale(vec3_sub(center, vec3_all(0.5)), scale),
+                   max = vec3_scale(vec3_add(center, vec3_all(0.5)), scale);
         const box3 got = shape_bounds(&a.p, a.ref);
-        assert_true(got.min.x <= hit.x && got.min.y <= hit.y && got.min.z <= hit.z);
-        assert_true(got.max.x >= hit.x && got.max.y >= hit.y && got.max.z >= hit.z);
-        assert_vec3_near(got.max, (vec3){1, 1, 1}, 4e-9, "max");
+        assert_true(got.min.x <= min.x && got.min.y <= min.y && got.min.z <= min.z);
+        assert_true(got.max.x >= max.x && got.max.y >= max.y && got.max.z >= max.z);
+        assert_vec3_near(got.min, min, 2e-8, "min");
+        assert_vec3_near(got.max, max, 2e-8, "max");
     }
 }
 
 int main(void) {
     struct CMUnitTest tests[COUNT(crossing_rows) + COUNT(first_rows) + COUNT(surface_rows) +
-                            COUNT(contains_rows) + COUNT(bounds_rows) + 2];
+                            COUNT(contains_rows) + COUNT(bounds_rows) + 3];
     size_t n = 0;
     for (size_t i = 0; i < COUNT(crossing_rows); i++)
         tests[n++] =
@@ -379,5 +427,7 @@ int main(void) {
         tests[n++] = (struct CMUnitTest){bounds_rows[i].name, check_bounds, NULL, NULL, &bounds_rows[i]};
     tests[n++] =
         (struct CMUnitTest){"bounds follow object_from_world", check_bounds_of_hits, NULL, NULL, NULL};
+    tests[n++] =
+        (struct CMUnitTest){"bounds follow its scale", check_bounds_of_scaled_hits, NULL, NULL, NULL};
     return cmocka_run_group_tests_name("shape", tests, NULL, NULL);
 }

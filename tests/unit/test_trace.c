@@ -176,6 +176,30 @@ static const struct row rows[] = {
      "- {plane: {point: [9, 0, 0], normal: [-1, 0, 0]}, material: " GLOW(0.2, 0.4, 0.6) "}",
      {0.2, 0.4, 0.6},
      0},
+    {"what weighs less than 1e-5 is not followed",
+     DOWN_Z "lights: [{ambient: {color: [1e5, 1e5, 1e5]}}]\nscene:\n  - {plane: {}, material: {diffuse: black, "
+            "reflection: 0.9e-5}}\n  - {plane: {point: [0, 0, 9], normal: [0, 0, -1]}, material: " GLOW(
+                0.2, 0.4, 0.6) "}",
+     {0, 0, 0},
+     0},
+    {"what weighs a little more is",
+     DOWN_Z "lights: [{ambient: {color: [1e5, 1e5, 1e5]}}]\nscene:\n  - {plane: {}, material: {diffuse: black, "
+            "reflection: 1.1e-5}}\n  - {plane: {point: [0, 0, 9], normal: [0, 0, -1]}, material: " GLOW(
+                0.2, 0.4, 0.6) "}",
+     {0.22, 0.44, 0.66},
+     0},
+    {"nor does light count through glass as dark as that",
+     DOWN_Z "lights: [{point: {at: [4, 0, 4], color: [1e5, 1e5, 1e5]}}]\nscene:\n  - {plane: {}, material: "
+            "{diffuse: [1, 1, 1]}}\n  - {disc: {center: [2, 0, 2], normal: [1, 0, 1], radius: 0.5}, "
+            "material: {diffuse: black, refraction: 0.9e-5}}",
+     {0, 0, 0},
+     0},
+    {"through glass a little clearer it does: 1.1 cos(45)",
+     DOWN_Z "lights: [{point: {at: [4, 0, 4], color: [1e5, 1e5, 1e5]}}]\nscene:\n  - {plane: {}, material: "
+            "{diffuse: [1, 1, 1]}}\n  - {disc: {center: [2, 0, 2], normal: [1, 0, 1], radius: 0.5}, "
+            "material: {diffuse: black, refraction: 1.1e-5}}",
+     {0.77781745930520227, 0.77781745930520227, 0.77781745930520227},
+     0},
     {"a body of index 1 is not seen",
      DOWN_Z GLOW_LIGHT "scene:\n  - {sphere: {}, material: {diffuse: black, refraction: 1, index: 1}}\n" WALL(
          "[0, 0, -3]", 0.2, 0.4, 0.6),
@@ -298,6 +322,17 @@ static void test_slab_in_water(void **state) {
                   8.0 * tan(water) + 2.0 * tan(glass));
 }
 
+/* Where two bodies overlap the one entered last counts, also as the other is left. */
+static void test_overlapping_slabs(void **state) {
+    (void)state;
+    const double water = asin(sin(pi / 4) / 1.33), glass = asin(sin(pi / 4) / 1.5);
+    check_arrival("  - {box: {min: [-50, -50, -2], max: [50, 50, 0]}, material: {diffuse: black, "
+                  "refraction: 1, index: 1.33}}\n"
+                  "  - {box: {min: [-60, -60, -4], max: [60, 60, -1]}, material: {diffuse: black, "
+                  "refraction: 1, index: 1.5}}\n",
+                  1.0 * tan(water) + 3.0 * tan(glass) + 6.0);
+}
+
 static void test_same_index_inside(void **state) {
     (void)state;
     const double water = asin(sin(pi / 4) / 1.33);
@@ -356,6 +391,7 @@ int main(void) {
         cmocka_unit_test(test_slab),
         cmocka_unit_test(test_water_surface),
         cmocka_unit_test(test_slab_in_water),
+        cmocka_unit_test(test_overlapping_slabs),
         cmocka_unit_test(test_same_index_inside),
         cmocka_unit_test(test_mirrored_body),
         cmocka_unit_test(test_camera_in_nested_glass),
