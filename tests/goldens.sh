@@ -23,22 +23,6 @@ for word; do
     *) program=$word ;;
     esac
 done
-scenes=$(ls scenes/report/*.yaml scenes/gallery/*.yaml scenes/presets.yaml)
-# The repository should not swell: most goldens are half the size of their scene.
-size_of() {
-    case $(basename "$1" .yaml) in
-    view1 | view2 | chess) ;;
-    final) echo '--samples 16' ;;
-    figure1) echo '--size 320x240' ;;
-    king) echo '--size 270x360' ;;
-    *) case $1 in scenes/report/*) echo '--size 360x240' ;; *) echo '--size 192x128 --samples 1' ;; esac ;;
-    esac
-}
-if [ -n "$list" ]; then
-    for file in $scenes; do echo "$(basename "$file" .yaml) $file $(size_of "$file")"; done
-    exit 0
-fi
-
 [ -x "$program" ] || { echo "goldens: no program $program" >&2; exit 2; }
 case $program in /*) ;; *) program=./$program ;; esac
 pictures=$(dirname "$program")/goldens
