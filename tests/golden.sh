@@ -309,6 +309,27 @@ for kind in png hash both; do
         exits 1 test s --golden g --changed; says missing two
     fi
 done
+if have python3; then # a picture that was edited by something that keeps its texts
+    fresh
+    exits 0 test s --golden g --update-only-failed -q
+    "$monge" render -q s/one.yaml --shading signature -o x.png
+    python3 - <<'PYTHON'
+import struct
+def chunks(path):
+    data, at = open(path, "rb").read(), 8
+    while at < len(data):
+        size = struct.unpack(">I", data[at:at + 4])[0] + 12
+        yield data[at + 4:at + 8], data[at:at + size]
+        at += size
+golden = open("g/one.png", "rb").read()[:8]
+new = b"".join(c for kind, c in chunks("x.png") if kind == b"IDAT")
+for kind, chunk in list(chunks("g/one.png")):
+    if kind == b"IDAT": chunk, new = new, b""
+    golden += chunk
+open("g/one.png", "wb").write(golden)
+PYTHON
+    exits 1 test s --golden g --changed; says changed one; out_lacks 'the options and the program'
+fi
 fresh
 printf 'include: ../common.yaml\nimage: {size: [8, 6], samples: 1}\nscene: [{sphere: {}, material: m}]\n' >s/three.yaml
 echo 'materials: {m: {diffuse: red}}' >common.yaml
@@ -446,6 +467,9 @@ exits 2 accept --golden g; err_has '`../one` is no name of a golden'; missing on
 exits 1 test s --golden g -q
 cp monge-test/new/two.png monge-test/new/one.png
 exits 1 accept --golden g; err_has 'one is left as it is: its new picture is not that of the run'
+exits 1 test s --golden "$work/g" -q
+(mkdir -p away; cd away; "$monge" accept one --golden "$work/g" --output ../monge-test >out 2>err); cp away/err err
+err_has 'one is left as it is: its scene cannot be read from here'
 exits 1 test s --golden g -q; rm monge-test/new/one.png
 exits 1 accept --golden g; err_has 'one is left as it is: its new picture cannot be read any more'
 exits 1 test s --golden g -q

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "cli/golden_folder.h"
 #include "cli/golden_results.h"
@@ -70,6 +71,8 @@ static const char *find_obstacle(const struct acceptance *a, const struct golden
         why = "its new picture is not that of the run";
     else if (strcmp(monge_program(), c->now.program) != 0)
         why = "the program has changed since the run";
+    else if (access(c->scene, R_OK) != 0)
+        why = "its scene cannot be read from here";
     else if (text_has_changed(a, c, picture, diag))
         why = "the scene has changed since the run";
     else if (options_have_changed(a, c))

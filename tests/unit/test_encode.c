@@ -137,6 +137,23 @@ static void check_random(void **state) {
     }
 }
 
+/* ---- What makes it quick ---- */
+
+static void the_knots_are_on_the_curve(void **state) {
+    (void)state;
+    struct {
+        struct encoder encoder;
+        double beyond;
+    } all = {.beyond = 7};
+    encoder_init(&all.encoder, SRGB, 8);
+    for (int i = 0; i < ENCODER_KNOTS; i++) {
+        const long double linear = ldexpl(1 + (i % 512) / 512.0L, i / 512 - 9);
+        const long double want = 1.055L * powl(linear, 1 / 2.4L) - 0.055L;
+        assert_true(fabsl((long double)all.encoder.knot[i] - want) < 1e-15L);
+    }
+    assert_true(all.beyond == 7);
+}
+
 /* ---- Rows of bytes ---- */
 
 static void sixteen_bits_have_the_high_byte_first(void **state) {
@@ -162,7 +179,7 @@ static void eight_bits_have_one_byte_each(void **state) {
 enum { ROWS = sizeof rows / sizeof *rows, FORMATS = sizeof formats / sizeof *formats };
 
 int main(void) {
-    struct CMUnitTest tests[ROWS + 2 * FORMATS + 2];
+    struct CMUnitTest tests[ROWS + 2 * FORMATS + 3];
     size_t n = 0;
     for (size_t i = 0; i < ROWS; i++)
         tests[n++] = (struct CMUnitTest){rows[i].name, check_row, NULL, NULL, &rows[i]};
@@ -173,6 +190,7 @@ int main(void) {
         snprintf(names[2 * i + 1], sizeof *names, "random values: %s", formats[i].name);
         tests[n++] = (struct CMUnitTest){names[2 * i + 1], check_random, NULL, NULL, &formats[i]};
     }
+    tests[n++] = (struct CMUnitTest)cmocka_unit_test(the_knots_are_on_the_curve);
     tests[n++] = (struct CMUnitTest)cmocka_unit_test(sixteen_bits_have_the_high_byte_first);
     tests[n++] = (struct CMUnitTest)cmocka_unit_test(eight_bits_have_one_byte_each);
     return cmocka_run_group_tests_name("encode", tests, NULL, NULL);

@@ -342,6 +342,29 @@ static void check_crack(void **state) {
     }
 }
 
+static vec3 turned(vec3 v, bool turn) { return turn ? (vec3){v.y, v.x, v.z} : v; }
+
+/* The same where a little error of t is a long way across the seam, in x or in y: rays that graze squares of
+ * different sizes, far from the origin along their normal. */
+static void check_grazed_crack(void **state) {
+    (void)state;
+    begin(SQUARE);
+    for (int i = 0; i < 20000; i++) {
+        struct subject left, right;
+        const bool turn = i % 2;
+        const double away = uniform(1e5, 1e6), size = uniform(0.5, 3);
+        const vec3 beside = turned((vec3){0.5 + 0.5 * size, 0, away}, turn);
+        make_subject(&left, SQUARE, NULL, affine_translate((vec3){0, 0, away}));
+        make_subject(&right, SQUARE, NULL,
+                     affine_compose(affine_translate(beside), affine_scale(vec3_all(size))));
+        const vec3 target = turned((vec3){0.5, uniform(-0.2, 0.2), away}, turn);
+        const vec3 across = {chance(0.5) ? 1 : -1, uniform(-0.1, 0.1), power_of_ten(-4, -1)};
+        const vec3 d = turned(across, turn);
+        const ray r = {vec3_madd(target, -power_of_ten(-1, 1), d), d};
+        if (!crossings_ahead(&left, r) && !crossings_ahead(&right, r)) fail_msg("a crack at ray %d", i);
+    }
+}
+
 static box3 grow(box3 b, double by) {
     return (box3){vec3_sub(b.min, vec3_all(by)), vec3_add(b.max, vec3_all(by))};
 }
@@ -432,5 +455,6 @@ int main(void) {
     }
     add_test("crossings against a walk, random quadrics", check_any_quadric, -1);
     add_test("no crack between squares", check_crack, -1);
+    add_test("no crack between squares that are grazed", check_grazed_crack, -1);
     return _cmocka_run_group_tests("shape_random", tests, test_count, NULL, NULL);
 }
