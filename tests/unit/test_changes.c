@@ -348,6 +348,13 @@ static void test_files(void **state) {
     assert_false(
         monge_changes(p, of_p, q, of_p, &how, changes, ROOM, &count, diag)); /* passes of another picture */
     assert_int_equal(monge_diagnostics_failures(diag), 1);
+    char *text = NULL;
+    size_t size;
+    FILE *out = open_memstream(&text, &size);
+    monge_diagnostics_print(diag, out);
+    fclose(out);
+    assert_non_null(strstr(text, "cannot tell what changed in b.png: its passes are not of this picture"));
+    free(text);
     monge_layers_free(of_p);
     monge_layers_free(of_q);
     monge_picture_free(p);

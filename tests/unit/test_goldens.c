@@ -93,7 +93,7 @@ static void mistakes(void **state) {
         {"kidn: png\n", "unknown-key", "did you mean `kind`?"},
         {"kind: jpg\n", "not-a-choice", "png, hash or both"},
         {"rules: [{options: --samples 1}]\n", "missing-key", "a rule needs the key `scenes`"},
-        {"rules: [{scenes: {a: 1}}]\n", "not-a-text", "expected the name of a scene"},
+        {"rules: [{scenes: {a: 1}}]\n", "not-a-text", "`scenes`: expected the name of a scene, or a list of names"},
         {"rules: [{scenes: [a, [b]]}]\n", "not-a-text", "expected the name of a scene"},
         {"rules: [{scenes: a, tolerance: {max: 0.1}}]\n", "missing-key", "needs the key `reason`"},
         {"rules: [{scenes: a, tolerance: {reason: r}}]\n", "missing-key", "at least one bound"},
