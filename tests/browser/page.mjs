@@ -36,6 +36,8 @@ const rows = (tab) => tab.$$eval('#list li', (list) => list.map((row) => row.dat
 const title = (tab) => tab.textContent('#detail h2');
 const body = (tab) => tab.textContent('#detail');
 const shown = async (tab, name) => tab.waitForFunction((want) => document.querySelector('#detail h2')?.textContent === want, name, {timeout: 5000}).then(() => true, () => false);
+/* Until the scene, the mode and the pass are those that are wanted. */
+const settled = (tab, wanted) => tab.waitForFunction((want) => document.querySelector('#detail').dataset.shows === want, wanted, {timeout: 5000});
 const transform = (tab) => tab.$eval('.stage canvas', (canvas) => canvas.style.transform);
 const shot = (tab, name) => tab.screenshot({path: path.join(shots, `${name}.png`)});
 
@@ -57,6 +59,22 @@ check('what changed is told', /geometry moved/.test(await body(tab)), await body
 check('the command is there', /monge render .*moved\.yaml/.test(await body(tab)));
 await shot(tab, 'side');
 
+const passes = await tab.$$eval('select[aria-label="What is shown"] option', (options) => options.map((option) => option.value));
+check('the passes can be chosen', ['colour', 'object', 'depth', 'normal'].every((name) => passes.includes(name)), passes);
+for (const name of passes.slice(1)) {
+  await tab.selectOption('select[aria-label="What is shown"]', name);
+  await settled(tab, `moved side ${name}`);
+  const colours = await tab.$eval('.stage canvas', (canvas) => new Set(new Uint32Array(canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data.buffer)).size);
+  check(`there is something in the pass ${name}`, colours > 1, colours);
+  if (name === 'normal') await shot(tab, 'normal');
+}
+await tab.selectOption('select[aria-label="What is shown"]', 'object');
+await settled(tab, 'moved side object');
+const object = await pointAt(tab, 30, 20);
+check('the number of an object is told', /golden +1$/m.test(object), object);
+await tab.selectOption('select[aria-label="What is shown"]', 'colour');
+await settled(tab, 'moved side colour');
+
 await tab.keyboard.press('j');
 check('j goes on', await shown(tab, 'painted'));
 check('its change is the shading', /shading changed, geometry equal/.test(await body(tab)), await body(tab));
@@ -67,6 +85,7 @@ await shown(tab, 'painted');
 
 /* The golden is #203040 behind everything, the new one #204060. */
 await tab.keyboard.press('s');
+await settled(tab, 'painted side colour');
 const told = await pointAt(tab, 1, 1);
 check('values of the golden', /golden +32 +48 +64/.test(told), told);
 check('values of the new one', /new +32 +64 +96/.test(told), told);
@@ -87,7 +106,7 @@ check('1 is one to one', /scale\(1\)/.test(await transform(tab)), await transfor
 await tab.keyboard.press('0');
 
 await tab.click('[data-mode=slide]');
-await tab.waitForSelector('.cut');
+await settled(tab, 'painted slide colour');
 const clip = () => tab.$eval('.stage canvas:nth-of-type(2)', (canvas) => canvas.style.clipPath);
 const middle = await clip(), handle = await (await tab.$('.cut')).boundingBox();
 await tab.mouse.move(handle.x + 1, handle.y + handle.height / 2);
@@ -98,7 +117,7 @@ check('the slider uncovers', await clip() !== middle, middle);
 await shot(tab, 'slider');
 
 await tab.keyboard.press('b');
-await tab.waitForFunction(() => /new|golden/.test(document.querySelector('.pane figcaption')?.textContent));
+await settled(tab, 'painted blink colour');
 const caption = () => tab.textContent('.pane figcaption');
 const one = await caption();
 await tab.keyboard.press(' ');
@@ -107,10 +126,10 @@ check('space steps while it blinks', await caption() !== one, one);
 /* Equal pixels are black in the difference, and dim in the heat map. */
 const seen = (x, y) => tab.$eval('.stage canvas', (canvas, at) => Array.from(canvas.getContext('2d').getImageData(at[0], at[1], 1, 1).data), [x, y]);
 await tab.keyboard.press('d');
-await tab.waitForFunction(() => /difference/.test(document.querySelector('.pane figcaption')?.textContent));
+await settled(tab, 'painted difference colour');
 check('the difference times 8', (await seen(1, 1)).join() === '0,128,255,255', await seen(1, 1));
 await tab.keyboard.press('h');
-await tab.waitForFunction(() => /heat/.test(document.querySelector('.pane figcaption')?.textContent));
+await settled(tab, 'painted heat colour');
 const heat = await seen(1, 1);
 check('the heat map is warm there', heat[0] > heat[1] + 30, heat);
 await shot(tab, 'heat');

@@ -68,10 +68,54 @@ function decodePfm(bytes) {
   return image;
 }
 
+/* The chunks of a PNG file, by the names of those that are wanted; of several of a name all data, joined. */
+function chunksOf(bytes, names) {
+  const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.length), parts = Object.fromEntries(names.map((name) => [name, []]));
+  for (let at = 8; at + 12 <= bytes.length; at += 12 + view.getUint32(at)) {
+    const name = String.fromCharCode(...bytes.subarray(at + 4, at + 8));
+    if (names.includes(name)) parts[name].push(bytes.subarray(at + 8, at + 8 + view.getUint32(at)));
+  }
+  return parts;
+}
+
+/* Undoes the filters of the rows, `rows` having a filter byte before each of `stride` bytes; `step` bytes are a pixel. */
+function unfilter(rows, stride, step) {
+  const out = new Uint8Array(rows.length / (stride + 1) * stride);
+  for (let from = 0, to = 0; from < rows.length; from += stride + 1, to += stride)
+    for (let i = 0; i < stride; i++) {
+      const left = i < step ? 0 : out[to + i - step], up = to ? out[to + i - stride] : 0, corner = to && i >= step ? out[to + i - stride - step] : 0;
+      const guess = left + up - corner, far = [Math.abs(guess - left), Math.abs(guess - up), Math.abs(guess - corner)];
+      const paeth = far[0] <= far[1] && far[0] <= far[2] ? left : far[1] <= far[2] ? up : corner;
+      out[to + i] = rows[from + 1 + i] + [0, left, up, (left + up) >> 1, paeth][rows[from]];
+    }
+  return out;
+}
+
+/* Of 16 bits a channel, which a browser has not: its numbers, with an image of the high bytes; for the numbers of objects and
+ * the like, `isNumber`, one of colours that tell them apart. Null: another kind of file. */
+async function decode16(bytes, isNumber) {
+  const {IHDR: [header], IDAT: data} = chunksOf(bytes, ['IHDR', 'IDAT']);
+  const channels = {0: 1, 2: 3, 4: 2, 6: 4}[header[9]];
+  if (header[8] !== 16 || header[12] !== 0) return null;
+  const size = new DataView(header.buffer, header.byteOffset), width = size.getUint32(0), height = size.getUint32(4);
+  const rows = await new Response(new Blob(data).stream().pipeThrough(new DecompressionStream('deflate'))).arrayBuffer();
+  const plain = unfilter(new Uint8Array(rows), 2 * channels * width, 2 * channels);
+  const image = new ImageData(width, height), numbers = Uint16Array.from({length: plain.length / 2}, (_, i) => plain[2 * i] << 8 | plain[2 * i + 1]);
+  for (let i = 0; i < width * height; i++) {
+    const at = i * channels, code = numbers[at];
+    for (let c = 0; c < 3; c++)
+      image.data[4 * i + c] = isNumber ? code && 64 + (code * [97, 57, 173][c] + 60 * c) % 192 : numbers[at + (channels > 2 ? c : 0)] >> 8;
+    image.data[4 * i + 3] = channels % 2 ? 255 : numbers[at + channels - 1] >> 8;
+  }
+  return Object.assign(image, {numbers, channels});
+}
+
 async function decode(path) {
   const bytes = bytesOf(path);
   if (!bytes) return null;
   if (bytes[0] === 0x50) return decodePfm(bytes);
+  const exact = await decode16(bytes, ['object', 'material', 'shadow'].includes(state.layer));
+  if (exact) return exact;
   const bitmap = await createImageBitmap(new Blob([bytes], {type: 'image/png'}), {colorSpaceConversion: 'none', premultiplyAlpha: 'none'});
   const context = new OffscreenCanvas(bitmap.width, bitmap.height).getContext('2d', {willReadFrequently: true});
   context.drawImage(bitmap, 0, 0);
@@ -250,6 +294,7 @@ function blink() {
 async function showScene(scene) {
   const other = scene !== state.scene;
   state.scene = scene;
+  delete $('detail').dataset.shows;
   if (scene && !layersOf(scene).includes(state.layer)) state.layer = 'colour';
   markCurrent();
   if (!scene) { view = null; $('detail').replaceChildren(); return; }
@@ -274,6 +319,7 @@ async function showScene(scene) {
   blink();
   if (other || state.fitted) fit(); else place();
   tell(null);
+  $('detail').dataset.shows = [scene.name, state.mode, state.layer].join(' ');
 }
 
 function setMode(mode) {
@@ -351,16 +397,18 @@ function listenToStage(stage) {
 
 function valueAt(image, [x, y]) {
   if (!image || x < 0 || y < 0 || x >= image.width || y >= image.height) return null;
-  return Array.from(image.data.subarray(4 * (y * image.width + x), 4 * (y * image.width + x) + 3));
+  const at = y * image.width + x;
+  if (image.numbers) return Array.from(image.numbers.subarray(image.channels * at, image.channels * (at + 1)));
+  return Array.from(image.data.subarray(4 * at, 4 * at + 3));
 }
 
-/* The values of both at a pixel, of 8 bits as a browser has them. */
+/* The numbers of both at a pixel, as their files have them. */
 function tell(at) {
   const line = $('values');
   if (!line) return;
   if (!at) { line.textContent = 'Point at a pixel for its values; the wheel zooms, dragging moves.'; return; }
   const golden = valueAt(view.golden, at), fresh = valueAt(view.fresh, at);
-  const row = (name, value) => value ? `\n${name.padEnd(7)} ${value.map((v) => String(v).padStart(4)).join('')}` : '';
+  const row = (name, value) => value ? `\n${name.padEnd(7)} ${value.map((v) => String(v).padStart(6)).join('')}` : '';
   const apart = golden && fresh && view.golden !== view.fresh ? row('apart', golden.map((v, c) => fresh[c] - v)) : '';
   line.textContent = `x ${at[0]}  y ${at[1]}${row('golden', golden)}${view.golden === view.fresh ? '' : row('new', fresh)}${apart}`;
 }
