@@ -47,6 +47,7 @@ static bool is_unchanged(const struct unit *unit, const char *path, unsigned fra
     const struct work *work = unit->work;
     const struct output *output = unit->output;
     if (!work_wants(work, OPTION_SKIP_UNCHANGED) && !work_wants(work, OPTION_RESUME)) return false;
+    if (work->plan.passes) return false; /* a picture does not say that its passes are right */
     char *asked = asked_text(work->args.option, output->defines, work->loader.sweep.count, frame);
     const bool same = unchanged_picture(path, output->scene, asked, &work->loader.limits.load);
     free(asked);
