@@ -99,6 +99,27 @@ static void limits_are_exact(void **state) {
     }
 }
 
+/* Each row that differs does so farther to the left. */
+static uint8_t slanted(size_t x, size_t y, size_t i) {
+    return (uint8_t)(flat(x, y, i) + (y > 2 && y < 9 && x + 7 * y == 62 ? 1 : 0));
+}
+
+static void bounds_hold_all(void **state) {
+    (void)state;
+    for (unsigned threads = 1; threads < 4; threads++) {
+        const struct monge_difference d =
+            compare_with(SAMPLE(WIDTH, HEIGHT, .byte = slanted), SAMPLE(WIDTH, HEIGHT, .byte = flat),
+                         (struct monge_compare){.threads = threads});
+        assert_int_equal(d.different, 6);
+        assert_int_equal(d.bounds.x, 62 - 7 * 8);
+        assert_int_equal(d.bounds.y, 3);
+        assert_int_equal(d.bounds.width, 7 * 5 + 1);
+        assert_int_equal(d.bounds.height, 6);
+        assert_int_equal(d.max_x, 62 - 7 * 3);
+        assert_int_equal(d.max_y, 3);
+    }
+}
+
 /* ---- What is ignored ---- */
 
 static uint8_t mask_byte(size_t x, size_t y, size_t i) {
@@ -303,6 +324,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(differences_are_counted, enter_folder, leave_folder),
         cmocka_unit_test_setup_teardown(beyond_is_by_more_than_max_delta, enter_folder, leave_folder),
         cmocka_unit_test_setup_teardown(limits_are_exact, enter_folder, leave_folder),
+        cmocka_unit_test_setup_teardown(bounds_hold_all, enter_folder, leave_folder),
         cmocka_unit_test_setup_teardown(regions_are_ignored, enter_folder, leave_folder),
         cmocka_unit_test_setup_teardown(masks_are_ignored, enter_folder, leave_folder),
         cmocka_unit_test_setup_teardown(masks_must_be_of_the_size, enter_folder, leave_folder),
