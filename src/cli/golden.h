@@ -1,12 +1,14 @@
 /* Golden pictures: what the parts of `monge test` and `monge accept` share.
  *
- *     golden_settings  DIR/golden.yaml: how which scene is tested
- *     golden_lock      DIR/golden.lock: goldens that are a line of text
- *     golden_folder    DIR/NAME.png: goldens that are pictures; paths
- *     golden_case      renders a scene and judges its pictures, each a case, against their goldens
- *     golden_results   the run as a JSON document, written and read again
- *     golden_tell      the run in a terminal; golden_tap, golden_junit  the same for programs
- *     golden_take      makes the new picture of a case its golden */
+ *     golden_settings   DIR/golden.yaml: how which scene is tested
+ *     golden_lock       DIR/golden.lock: goldens that are a line of text
+ *     golden_folder     names of goldens as paths, and the pictures that are there
+ *     golden_run        a run of `monge test`: golden_case renders a scene, golden_judge compares its pictures, each a
+ *                       case, with their goldens, golden_layers tells what changed, golden_old has the old picture
+ *     golden_orphans    goldens whose scene is gone
+ *     golden_results    the run as a JSON document, which golden_reread reads again
+ *     golden_tell       the run in a terminal and as TAP; golden_junit as XML; golden_files writes all that is asked for
+ *     golden_take       makes the new picture of a case its golden */
 #ifndef MONGE_CLI_GOLDEN_H
 #define MONGE_CLI_GOLDEN_H
 
@@ -80,8 +82,8 @@ char *golden_tolerance_text(const struct monge_tolerance *tolerance);
 /* "1204 of 24576 pixels, by up to 0.31, flip 0.021"; of a case that is compared. To be freed. */
 char *golden_difference_text(const struct monge_difference *difference);
 
-/* "the scene's text differs; the options and the program are the same"; NULL: nothing is known of the golden. To be
- * freed. */
+/* "the scene's text differs; the options and the program are the same"; NULL: nothing is known of the golden. To
+ * be freed. */
 char *golden_causes_text(const struct golden_case *c);
 
 /* Whether the difference is within the tolerance. */

@@ -5,7 +5,8 @@
 #include "cli/golden_results.h"
 #include "cli/options.h"
 
-/* `output` is the folder of the run. False, with the reason told, where one of them cannot be written: the others are. */
+/* `output` is the folder of the run. False, with the reason told, where one of them cannot be written: the others
+ * are. */
 bool golden_files_write(const struct golden_results *results, const char *output,
                         const struct option_value *option);
 

@@ -21,8 +21,8 @@ bool golden_copy(const char *from, const char *to);
  * one that is not there is no trouble. */
 bool golden_remove(const char *folder, const char *path);
 
-/* The names of all pictures below a folder but for layers of others, sorted, up to a NULL; a folder that is not there has
- * none. To be freed, with its texts. */
+/* The names of all pictures below a folder but for layers of others, sorted, up to a NULL; a folder that is not
+ * there has none. To be freed, with its texts. */
 char **golden_names(const char *folder);
 void golden_names_free(char **names);
 

@@ -19,8 +19,8 @@ static void copy_stamp(const struct golden_stamp *from, struct golden_stamp *to)
     to->options = say_text("%s", from->options);
 }
 
-/* What the picture says that it was made from; where it is not as it was written, that says nothing of it. `pixels` is the
- * hash of those that it has, "" of another kind of picture. */
+/* What the picture says that it was made from; where it is not as it was written, that says nothing of it. `pixels` is
+ * the hash of those that it has, "" of another kind of picture. */
 static void read_stamp(const struct monge_picture *picture, const char *pixels, struct golden_stamp *stamp) {
     const char *options = monge_picture_text(picture, "monge:options"),
                *said = monge_picture_text(picture, "monge:pixels");
@@ -81,7 +81,7 @@ static bool find_picture(struct golden_case *c, const char *path) {
     return good || miss(c);
 }
 
-/* Of goldens that are both, one may have gone; and what is kept otherwise than the settings say tells that there was one. */
+/* Of goldens that are both, one may have gone; and a line where there ought to be a picture tells that there was one. */
 static bool find_at(struct golden_case *c, const struct golden_line *line, const char *path,
                     const char *lock) {
     const bool file = golden_is_file(path), png = c->kind != MONGE_GOLDEN_HASH,

@@ -4,8 +4,9 @@
  *     # Goldens of monge test.
  *     gallery/chess 640x480x8 pixels=27f0... scene=... text=... program=... options=--samples 4
  *
- * A name has no blanks: those, control characters and % are written as %20 and the like; in options, which go to the
- * end of the line, control characters and %. Goldens with passes have depth=, normal= and shadow= as well. What is not known of a golden is left out, as are options that are not. */
+ * A name has no blanks: those, control characters and % are written as %20 and the like; in options, which go to
+ * the end of the line, control characters and %. Goldens with passes have depth=, normal= and shadow= as well. What
+ * is not known of a golden is left out, as are options that are not. */
 #ifndef MONGE_CLI_GOLDEN_LOCK_H
 #define MONGE_CLI_GOLDEN_LOCK_H
 
@@ -22,8 +23,8 @@ struct golden_lock {
     size_t count;
 };
 
-/* Reads DIR/golden.lock; where it is not there, there are no lines. False, with the reason and the line told, where it
- * is no such file: half of a merge, say. Either way to be freed. */
+/* Reads DIR/golden.lock; where it is not there, there are no lines. False, with the reason and the line told, where
+ * it is no such file: half of a merge, say. Either way to be freed. */
 bool golden_lock_read(struct golden_lock *lock, const char *folder);
 void golden_lock_free(struct golden_lock *lock);
 

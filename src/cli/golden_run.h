@@ -31,24 +31,24 @@ struct golden_run {
 /* Renders the pictures of a scene, and judges them: its cases. */
 void golden_scene_run(const struct golden_run *run, struct golden_scene *scene);
 
-/* What the golden of a case is, before its picture is rendered: c->old, c->golden_path, c->golden_file; and, where there is none or half
- * of it, the status. False: there is nothing to compare with. */
+/* What the golden of a case is, before its picture is rendered: c->old, c->golden_path, c->golden_file; and, where
+ * there is none or half of it, the status. False: there is nothing to compare with. */
 bool golden_find(const struct golden_run *run, struct golden_case *c);
 
 /* Whether the picture need not be rendered, with --changed. */
 bool golden_is_unchanged(const struct golden_run *run, const struct golden_case *c);
 
-/* Judges a picture that is rendered, against the golden that golden_find has found, or, has_golden being false, not; it stays
- * in the run's folder unless it is the same. */
+/* Judges a picture that is rendered against the golden that golden_find has found, if it has. The picture stays in the
+ * run's folder unless it is the same. */
 void golden_judge(const struct golden_run *run, struct golden_case *c, const struct monge_film *film,
                   bool has_golden);
 
-/* The golden's picture where it is a hash, by the program of --old, in the run's folder. False: it is another one, or there is
- * none; the message of the case tells. */
+/* The golden's picture where it is a hash, by the program of --old, in the run's folder. False: it is another one, or
+ * there is none; the message of the case tells. */
 bool golden_render_old(const struct golden_run *run, struct golden_case *c);
 
-/* Writes the passes of the scene, as it is now, beside the case's new picture, with their hashes into c->now; and tells what has
- * changed since the golden, where that has passes too, or hashes of them. What goes wrong is a message. */
+/* Writes the passes of the scene, as it is now, beside the case's new picture, their hashes into c->now; and tells what
+ * has changed since the golden, where that has passes too, or hashes of them. What goes wrong is a message. */
 void golden_judge_layers(const struct golden_run *run, struct monge_scene *scene,
                          const struct monge_settings *settings, const struct monge_region *region,
                          struct golden_case *c);
