@@ -812,7 +812,41 @@ static void check_equal_hash(void **state) {
     assert_memory_equal(&a, &b, sizeof a);
 }
 
-/* ---- The most of one kind ---- */
+/* ---- Mistakes ---- */
+
+static void what_is_wrong_adds_nothing(void **state) {
+    (void)state;
+    static const struct {
+        const char *object, *code;
+    } wrong[] = {
+        {"{cylinder: {from: [1, 2, 3], to: [1, 2, 3]}}", "no-length"},
+        {"{cone: {from: [1, 2, 3], to: [1, 2, 3]}}", "no-length"},
+        {"{paraboloid: {from: [1, 2, 3], to: [1, 2, 3]}}", "no-length"},
+        {"{hyperboloid: {from: [1, 2, 3], to: [1, 2, 3]}}", "no-length"},
+        {"{box: {min: [0, 0, 0], max: [1, 1, 0]}}", "min-over-max"},
+        {"{quadric: {constant: 1}}", "no-surface"},
+        {"{quadric: {xx: 1}, bounds: {min: [0, 0, 0], max: [0, 1, 1]}}", "min-over-max"},
+        {"{sphere: {}, bounds: {min: [0, 0, 0], max: [1, 1, 1]}}", "bounds-of-no-quadric"},
+        {"{sphere: {radius: 1e99}, transform: {scale: 1e99}}", "flat-transform"},
+        {"{square: {}, transform: [{scale: 1e99}, {scale: 1e99}]}", "flat-transform"},
+        {"{box: {}, transform: [{scale: 1e-99}, {scale: 1e-99}]}", "flat-transform"},
+    };
+    for (size_t i = 0; i < COUNT(wrong); i++) {
+        struct loaded l = {0};
+        struct lang_sink sink;
+        struct builder *b = scene_begin(&l.arena, &l.diag, &l.scene, &sink);
+        char text[200];
+        snprintf(text, sizeof text, "scene: [%s]\n", wrong[i].object);
+        const struct lang_input input = loading_input(&l.memory, text, &sink);
+        lang_read(&l.memory, &l.diag, &input);
+        if (l.diag.errors != 1 || strcmp(l.diag.first->code, wrong[i].code) != 0) {
+            diag_print(&l.diag, stdout);
+            fail_msg("%s: want one error, %s", wrong[i].object, wrong[i].code);
+        }
+        assert_int_equal(b->set->primitives.count, 0);
+        unload(&l);
+    }
+}
 
 #define ROWS(table, check)                                                                                   \
     for (size_t i = 0; i < COUNT(table); i++) tests[n++] = (struct CMUnitTest) {                             \
@@ -851,6 +885,7 @@ int main(void) {
         cmocka_unit_test(empty_mappings_change_nothing),
         cmocka_unit_test(errors_of_an_earlier_scene_do_not_stop_this_one),
         cmocka_unit_test(one_more_than_may_be_of_a_kind),
+        cmocka_unit_test(what_is_wrong_adds_nothing),
     };
     return cmocka_run_group_tests_name("rows", tests, NULL, NULL) +
            cmocka_run_group_tests_name("scene", others, NULL, NULL);
