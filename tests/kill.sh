@@ -60,24 +60,29 @@ finish() {
     [ -z "$(find p -name '*.partial')" ] || fail "a checkpoint is left over"
 }
 
-version=2
-for ((n = 1; n <= kills; n++)); do
+version=2 complete=1
+for ((n = 1; during < kills && n <= 5 * kills; n++)); do
     # a run that begins anew, with pictures of before or without, or goes on where the last one was killed
-    case $((RANDOM % 3)) in
+    case $((complete ? 0 : RANDOM % 4)) in
     0) version=$((3 - version)); scenes $version ;;
     1) [ $((RANDOM % 4)) -eq 0 ] && rm -rf p ;;
     esac
+    complete=0
     "$monge" render s -o p/ --resume -j 2 --threads $((RANDOM % 3 + 1)) >/dev/null 2>&1 & pid=$!
     sleep "$(awk -v r=$RANDOM -v took=$took 'BEGIN { printf "%.3f", r / 32768 * took * 1.1 / 1000 }')"
-    kill -9 $pid 2>/dev/null && during=$((during + 1))
+    kill -9 $pid 2>/dev/null
     wait $pid 2>/dev/null
+    if [ $? -eq 137 ]; then during=$((during + 1)); else complete=1; fi
     before=$failed
     check_pictures
-    if [ $((n % 4)) -eq 0 ] || [ $n -eq "$kills" ]; then finish; fi
+    if [ $((RANDOM % 4)) -eq 0 ]; then finish; complete=1; fi
     [ $failed -eq $before ] && passed=$((passed + 1))
 done
-[ $during -gt $((kills / 4)) ] || fail "only $during of $kills runs were at work when they were killed"
-echo "kill: $during of $kills at work, $mixed with pictures of both versions, $resumed runs went on from checkpoints"
+finish
+version=$((3 - version)); scenes $version # all pictures are of before now, and as fresh as they can be
+finish
+[ $during -eq "$kills" ] || fail "only $during of $((n - 1)) runs were at work when they were killed"
+echo "kill: $during of $((n - 1)) runs killed at work, $mixed with pictures of both versions, $resumed runs went on from checkpoints"
 [ -z "$(find p -name '*.tmp')" ] || echo "kill: $(find p -name '*.tmp' | wc -l) temporary files"
 echo "kill: $passed passed, $failed failed"
 [ "$failed" -eq 0 ]
