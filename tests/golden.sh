@@ -286,6 +286,33 @@ rm -rf g; exits 0 test s --golden g --golden-kind hash --update-only-failed -q; 
 echo 'tolerance: {flip: 0.1, reason: r}' >>s/one.yaml
 exits 1 test s --golden g --golden-kind hash; says changed one; out_has 'a golden that is a hash knows no tolerance'
 
+# ---- Pictures of other kinds ----
+
+for kind in png hash both; do
+    fresh "kind: $kind" 'rules: [{scenes: one, options: "--bits 16 --encoding linear --region 3,4,20,21"}]'
+    exits 0 test s --golden g --update-only-failed -q; exits 0 test s --golden g; exits 0 test s --golden g --changed
+    [ $kind = png ] || ok 'a region of 16 bits' grep -q '^one 20x21x16 ' g/golden.lock
+    sed -i 's/ --encoding linear//' g/golden.yaml; exits 1 test s --golden g; says changed one
+    [ $kind = hash ] || out_has 'another colour space'
+    sed -i 's/--bits 16/--encoding linear/' g/golden.yaml; exits 1 test s --golden g; says changed one
+done
+if have python3; then # a golden that somebody else has made
+    fresh
+    printf 'image: {size: [8, 6], samples: 1, background: black}\ncamera: {eye: [0, 0, 5], look_at: [0, 0, 10]}\nscene: [{sphere: {}}]\n' >s/dark.yaml
+    python3 - <<'PYTHON'
+import struct, zlib
+def chunk(kind, data): return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+rows = b"".join(b"\0" + bytes(8) for _ in range(6))
+open("g/dark.png", "wb").write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", 8, 6, 8, 0, 0, 0, 0)) +
+                               chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
+PYTHON
+    exits 0 test s/dark.yaml --golden g; says same dark
+    rm -rf monge-test; exits 0 test s/dark.yaml --golden g --changed; out_lacks unchanged
+    exits 0 test s/dark.yaml --golden g --changed; out_has unchanged
+    sed -i 's/background: black/background: "#000001"/' s/dark.yaml
+    exits 1 test s/dark.yaml --golden g; says changed dark; out_lacks 'the options'
+fi
+
 # ---- --changed ----
 
 for kind in png hash both; do

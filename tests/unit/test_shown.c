@@ -16,7 +16,7 @@ static char *read_lock(void) {
 
 /* Whether the lock has a line for DIR/NAME or NAME with these pixels. */
 static bool has_line(const char *lock, const char *name, const char *pixels) {
-    char begin[300], hash[80];
+    char begin[320], hash[80];
     snprintf(begin, sizeof begin, "%s ", name);
     snprintf(hash, sizeof hash, " pixels=%s ", pixels);
     for (const char *line = lock; line && *line; line = strchr(line, '\n'), line += line != NULL) {
