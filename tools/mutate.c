@@ -296,9 +296,11 @@ static void delete_statement(int i) {
     }
 }
 
-/* Of an array that is declared. */
+/* Of an array that is declared: `type name[3][4]`. */
 static bool is_array_size(int i) {
-    return is(i - 1, "[") && tokens[i - 2].type == WORD && (tokens[i - 3].type == WORD || is(i - 3, "*"));
+    if (!is(i - 1, "[")) return false;
+    for (i -= 2; is(i, "]"); i--) i = tokens[i].match;
+    return tokens[i].type == WORD && (tokens[i - 1].type == WORD || is(i - 1, "*"));
 }
 
 /* An assertion, or the words of a message. */
