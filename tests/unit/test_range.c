@@ -105,11 +105,8 @@ static struct held {
 /* Of a ball within a box from -0.5 to 0.5 that it fills, corners and all. */
 static void check_held(void **state) {
     const struct held *row = *state;
-    struct quadric_form form = {.xx = 1,
-                                .yy = 1,
-                                .zz = 1,
-                                .constant = -0.75,
-                                .clip = {{-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}}};
+    struct quadric_form form = {
+        .xx = 1, .yy = 1, .zz = 1, .constant = -0.75, .clip = {{-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}}};
     assert_int_equal(form_holds_box(&form, row->box), row->held);
     form.open = true;
     assert_false(form_holds_box(&form, row->box));

@@ -177,15 +177,17 @@ static const struct row rows[] = {
      {0.2, 0.4, 0.6},
      0},
     {"what weighs less than 1e-5 is not followed",
-     DOWN_Z "lights: [{ambient: {color: [1e5, 1e5, 1e5]}}]\nscene:\n  - {plane: {}, material: {diffuse: black, "
-            "reflection: 0.9e-5}}\n  - {plane: {point: [0, 0, 9], normal: [0, 0, -1]}, material: " GLOW(
-                0.2, 0.4, 0.6) "}",
+     DOWN_Z
+     "lights: [{ambient: {color: [1e5, 1e5, 1e5]}}]\nscene:\n  - {plane: {}, material: {diffuse: black, "
+     "reflection: 0.9e-5}}\n  - {plane: {point: [0, 0, 9], normal: [0, 0, -1]}, material: " GLOW(0.2, 0.4,
+                                                                                                 0.6) "}",
      {0, 0, 0},
      0},
     {"what weighs a little more is",
-     DOWN_Z "lights: [{ambient: {color: [1e5, 1e5, 1e5]}}]\nscene:\n  - {plane: {}, material: {diffuse: black, "
-            "reflection: 1.1e-5}}\n  - {plane: {point: [0, 0, 9], normal: [0, 0, -1]}, material: " GLOW(
-                0.2, 0.4, 0.6) "}",
+     DOWN_Z
+     "lights: [{ambient: {color: [1e5, 1e5, 1e5]}}]\nscene:\n  - {plane: {}, material: {diffuse: black, "
+     "reflection: 1.1e-5}}\n  - {plane: {point: [0, 0, 9], normal: [0, 0, -1]}, material: " GLOW(0.2, 0.4,
+                                                                                                 0.6) "}",
      {0.22, 0.44, 0.66},
      0},
     {"nor does light count through glass as dark as that",
