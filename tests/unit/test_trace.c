@@ -139,6 +139,12 @@ static const struct row rows[] = {
             "0.5]}}\n  - disc: {center: [4, 0, 4], normal: [1, 0, 1]}",
      {0.35355339059327373, 0.35355339059327373, 0.35355339059327373},
      0},
+    {"a sheet of glass at the light dims nothing",
+     DOWN_Z "lights: [{point: {at: [4, 0, 4]}}]\nscene:\n  - {plane: {}, material: {diffuse: [0.5, 0.5, "
+            "0.5]}}\n  - {disc: {center: [4, 0, 4], normal: [1, 0, 0]}, material: {diffuse: black, "
+            "refraction: 0.5}}",
+     {0.35355339059327373, 0.35355339059327373, 0.35355339059327373},
+     0},
     {"two glass sheets let 0.5 * 0.8 of the light through",
      DOWN_Z "lights: [{point: {at: [4, 0, 4]}}]\nscene:\n  - {plane: {}, material: {diffuse: [1, 1, 1]}}\n  "
             "- {disc: {center: [2, 0, 2], normal: [1, 0, 1], radius: 0.5}, material: {diffuse: black, "
