@@ -138,8 +138,8 @@ static void add_text(const char *kind, int first, int last, const char *by) {
     add(kind, first, last, by, (int)strlen(by));
 }
 
-static void add_copy(const char *kind, int first, int last, const char *before, int copy_first,
-                     int copy_last, const char *after) {
+static void add_copy(const char *kind, int first, int last, const char *before, int copy_first, int copy_last,
+                     const char *after) {
     const int copied = (int)(end_of(copy_last) - tokens[copy_first].at);
     char *by = malloc(strlen(before) + (size_t)copied + strlen(after) + 1);
     const int length = sprintf(by, "%s%.*s%s", before, copied, tokens[copy_first].at, after);
@@ -190,7 +190,7 @@ static void exchange(int i, const struct exchange *table, size_t count) {
 }
 #define EXCHANGE(i, table) exchange(i, table, sizeof(table) / sizeof *(table))
 
-static const char *const keywords[] = {"return", "case", "else", "if",   "while", "for",
+static const char *const keywords[] = {"return", "case", "else", "if",   "while",  "for",
                                        "switch", "do",   "goto", "void", "sizeof", NULL};
 
 static bool ends_operand(int i) {
@@ -296,9 +296,11 @@ static void delete_statement(int i) {
     }
 }
 
-/* Of an array that is declared. */
+/* Of an array that is declared: `type name[3][4]`. */
 static bool is_array_size(int i) {
-    return is(i - 1, "[") && tokens[i - 2].type == WORD && (tokens[i - 3].type == WORD || is(i - 3, "*"));
+    if (!is(i - 1, "[")) return false;
+    for (i -= 2; is(i, "]"); i--) i = tokens[i].match;
+    return tokens[i].type == WORD && (tokens[i - 1].type == WORD || is(i - 1, "*"));
 }
 
 /* An assertion, or the words of a message. */
@@ -425,7 +427,8 @@ static void make(const char *path, int number) {
     find_ways(text);
     if (number < 0 || number >= way_count) fail("has no such way", path);
     const struct way *way = &ways[number];
-    printf("#line 1 \"%s\"\n%.*s%.*s%s", path, (int)(way->from - text), text, way->by_length, way->by, way->to);
+    printf("#line 1 \"%s\"\n%.*s%.*s%s", path, (int)(way->from - text), text, way->by_length, way->by,
+           way->to);
 }
 
 static void draw(const char *seed, char **files, int count) {

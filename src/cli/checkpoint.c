@@ -14,7 +14,7 @@
 
 /* Seconds between two times of writing, and before the first. */
 #ifdef MONGE_HOSTILE
-#define INTERVAL 0.0
+#define INTERVAL 0.05
 #else
 #define INTERVAL 1.0
 #endif

@@ -78,9 +78,10 @@ static void the_innermost_of_many(void **state) {
     for (size_t i = 0; i < COUNT(orders); i++) {
         char text[200];
         struct world w;
-        snprintf(text, sizeof text,
-                 "scene: [{for: {i: 20}, sphere: {radius: '1 + %s'}, material: {index: '1 + 0.01 * (%s)'}}]\n",
-                 orders[i], orders[i]);
+        snprintf(
+            text, sizeof text,
+            "scene: [{for: {i: 20}, sphere: {radius: '1 + %s'}, material: {index: '1 + 0.01 * (%s)'}}]\n",
+            orders[i], orders[i]);
         world_begin(&w, text);
         assert_around(&w, up, MEDIA_MAX, index);
         unload(&w.loaded);
@@ -126,8 +127,10 @@ static void in_and_out_again(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(nothing_around),          cmocka_unit_test(by_where_the_ray_leaves),
-        cmocka_unit_test(bodies_of_one_place_by_their_number), cmocka_unit_test(the_innermost_of_many),
+        cmocka_unit_test(nothing_around),
+        cmocka_unit_test(by_where_the_ray_leaves),
+        cmocka_unit_test(bodies_of_one_place_by_their_number),
+        cmocka_unit_test(the_innermost_of_many),
         cmocka_unit_test(in_and_out_again),
     };
     return cmocka_run_group_tests_name("media", tests, NULL, NULL);

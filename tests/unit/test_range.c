@@ -54,6 +54,12 @@ static struct row {
      true},
     {"(x + y)^2 + z = -1", {.xx = 1, .yy = 1, .xy = 2, .z = 1, .constant = 1, .clip = EVERYWHERE}, false},
     {"-(x + y)^2 = 1", {.xx = -1, .yy = -1, .xy = -2, .constant = -1, .clip = EVERYWHERE}, true},
+    {"(x + y)^2 = -1, of any size",
+     {.xx = 1e-9, .yy = 1e-9, .xy = 2e-9, .constant = 1e-9, .clip = EVERYWHERE},
+     true},
+    {"(x + y)^2 = -1e-15 is not told from 0",
+     {.xx = 1e9, .yy = 1e9, .xy = 2e9, .constant = 1e-6, .clip = EVERYWHERE},
+     false},
     {"x^2 = -1, of any size: small", {.xx = 1e-9, .constant = 1e-9, .clip = EVERYWHERE}, true},
     {"x^2 = -1, of any size: large", {.xx = 1e9, .constant = 1e9, .clip = EVERYWHERE}, true},
     {"x y = -1 for x > 1", {.xy = 1, .constant = 1, .clip = {{1, -INFINITY, 0}, {9, INFINITY, 1}}}, false},
@@ -99,11 +105,8 @@ static struct held {
 /* Of a ball within a box from -0.5 to 0.5 that it fills, corners and all. */
 static void check_held(void **state) {
     const struct held *row = *state;
-    struct quadric_form form = {.xx = 1,
-                                .yy = 1,
-                                .zz = 1,
-                                .constant = -0.75,
-                                .clip = {{-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}}};
+    struct quadric_form form = {
+        .xx = 1, .yy = 1, .zz = 1, .constant = -0.75, .clip = {{-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}}};
     assert_int_equal(form_holds_box(&form, row->box), row->held);
     form.open = true;
     assert_false(form_holds_box(&form, row->box));

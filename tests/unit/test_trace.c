@@ -139,6 +139,12 @@ static const struct row rows[] = {
             "0.5]}}\n  - disc: {center: [4, 0, 4], normal: [1, 0, 1]}",
      {0.35355339059327373, 0.35355339059327373, 0.35355339059327373},
      0},
+    {"a sheet of glass at the light dims nothing",
+     DOWN_Z "lights: [{point: {at: [4, 0, 4]}}]\nscene:\n  - {plane: {}, material: {diffuse: [0.5, 0.5, "
+            "0.5]}}\n  - {disc: {center: [4, 0, 4], normal: [1, 0, 0]}, material: {diffuse: black, "
+            "refraction: 0.5}}",
+     {0.35355339059327373, 0.35355339059327373, 0.35355339059327373},
+     0},
     {"two glass sheets let 0.5 * 0.8 of the light through",
      DOWN_Z "lights: [{point: {at: [4, 0, 4]}}]\nscene:\n  - {plane: {}, material: {diffuse: [1, 1, 1]}}\n  "
             "- {disc: {center: [2, 0, 2], normal: [1, 0, 1], radius: 0.5}, material: {diffuse: black, "
@@ -177,15 +183,17 @@ static const struct row rows[] = {
      {0.2, 0.4, 0.6},
      0},
     {"what weighs less than 1e-5 is not followed",
-     DOWN_Z "lights: [{ambient: {color: [1e5, 1e5, 1e5]}}]\nscene:\n  - {plane: {}, material: {diffuse: black, "
-            "reflection: 0.9e-5}}\n  - {plane: {point: [0, 0, 9], normal: [0, 0, -1]}, material: " GLOW(
-                0.2, 0.4, 0.6) "}",
+     DOWN_Z
+     "lights: [{ambient: {color: [1e5, 1e5, 1e5]}}]\nscene:\n  - {plane: {}, material: {diffuse: black, "
+     "reflection: 0.9e-5}}\n  - {plane: {point: [0, 0, 9], normal: [0, 0, -1]}, material: " GLOW(0.2, 0.4,
+                                                                                                 0.6) "}",
      {0, 0, 0},
      0},
     {"what weighs a little more is",
-     DOWN_Z "lights: [{ambient: {color: [1e5, 1e5, 1e5]}}]\nscene:\n  - {plane: {}, material: {diffuse: black, "
-            "reflection: 1.1e-5}}\n  - {plane: {point: [0, 0, 9], normal: [0, 0, -1]}, material: " GLOW(
-                0.2, 0.4, 0.6) "}",
+     DOWN_Z
+     "lights: [{ambient: {color: [1e5, 1e5, 1e5]}}]\nscene:\n  - {plane: {}, material: {diffuse: black, "
+     "reflection: 1.1e-5}}\n  - {plane: {point: [0, 0, 9], normal: [0, 0, -1]}, material: " GLOW(0.2, 0.4,
+                                                                                                 0.6) "}",
      {0.22, 0.44, 0.66},
      0},
     {"nor does light count through glass as dark as that",
