@@ -176,7 +176,7 @@ exits 2 diff grey.png; err_has 'diff: expected two pictures, found 1'; err_has '
 exits 2 diff grey.png again.png dot.png; err_has 'found 3'
 exits 2 diff; err_has 'diff: no picture given'
 exits 2 diff - -; err_has 'standard input can be only one picture'
-exits 2 diff grey.png dot.png --metric blip; err_has '--metric: expected exact, max, mae, rmse, psnr, ssim or flip, found `blip`'
+exits 2 diff grey.png dot.png --metric blip; err_has '--metric: expected some of exact, max, mae, rmse, psnr, ssim and flip, with commas between, found `blip`'
 exits 2 diff grey.png dot.png --metric mae,,max; err_has '--metric: expected'
 exits 2 diff grey.png dot.png --metric mae,; err_has '--metric: expected'
 for wrong in nan -0.1 1.1 x ''; do

@@ -74,7 +74,7 @@ const struct option_row OPTION_TABLE[OPTIONS] = {
     [OPTION_BITS] = {"bits", 0, VALUE_CHOICE, IN_RENDER, "8|16", 0, 0, "bits a channel in the file"},
     [OPTION_ENCODING] = {"encoding", 0, VALUE_CHOICE, IN_RENDER, "srgb|linear", 0, 0,
                          "how colours are encoded in the file"},
-    [OPTION_AOV] = {"aov", 0, VALUE_SET, IN_RENDER, "object|material|depth|normal|shadow", 0, 0,
+    [OPTION_AOV] = {"aov", 0, VALUE_CHOICES, IN_RENDER, "object|material|depth|normal|shadow", 0, 0,
                     "write auxiliary passes beside the picture; several with commas between"},
     [OPTION_THREADS] = {"threads", 0, VALUE_WHOLE, IN_RENDER | IN_DIFF | IN_TEST, "N", 1, 1024,
                         "threads for each picture; all processors by default"},

@@ -98,7 +98,6 @@ enum value_kind {
     VALUE_CHOICES,  /* some of them, with commas between; may be given many times */
     VALUE_AMOUNT,   /* a whole number, or 0 .. 100 and % */
     VALUE_AREA,     /* as VALUE_REGION, or a file; may be given many times */
-    VALUE_SET,      /* some of the words of `value`, each once, with commas between */
     VALUE_FRAMES,   /* N, A-B, A- or all, with :STEP behind it; each low .. high */
     VALUE_PAIR,     /* NAME=VALUE; may be given many times */
 };
@@ -135,7 +134,7 @@ extern const char *const STATUS_DOC[STATUS_TROUBLE + 1];
 
 /* Whether the value is made of words that are known. */
 static inline bool option_has_words(const struct option_row *row) {
-    return row->kind == VALUE_CHOICE || row->kind == VALUE_CHOICES || row->kind == VALUE_SET;
+    return row->kind == VALUE_CHOICE || row->kind == VALUE_CHOICES;
 }
 
 static inline bool command_takes(enum command_id command, enum option_id option) {

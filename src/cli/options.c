@@ -115,18 +115,6 @@ static bool read_area(const struct option_row *row, const char *text, uint32_t n
     return text[strspn(text, "0123456789,-. ")] ? true : read_region(row, text, number);
 }
 
-/* Words with commas between, each once. */
-static bool read_set(const char *choices, const char *text, unsigned *set) {
-    for (*set = 0;;) {
-        const size_t length = strcspn(text, ",");
-        unsigned choice;
-        if (!read_choice(choices, text, length, &choice) || *set >> choice & 1) return false;
-        *set |= 1u << choice;
-        if (!text[length]) return true;
-        text += length + 1;
-    }
-}
-
 static bool read_value(const struct option_row *row, const char *text, struct option_value *value) {
     value->text = text;
     switch (row->kind) {
@@ -143,7 +131,6 @@ static bool read_value(const struct option_row *row, const char *text, struct op
     case VALUE_CHOICES: return read_choices(row->value, text, &value->choices);
     case VALUE_AMOUNT: return read_amount(text, value);
     case VALUE_AREA: return read_area(row, text, value->number);
-    case VALUE_SET: return read_set(row->value, text, &value->set);
     case VALUE_FRAMES: return read_frames(row, text, value->number);
     case VALUE_PAIR: return read_pair(text);
     }
@@ -170,16 +157,15 @@ static void describe_value(const struct option_row *row, char *text, size_t size
     case VALUE_FRACTION: snprintf(text, size, "a number from %u to %u", row->low, row->high); break;
     case VALUE_SIZE: snprintf(text, size, "WxH like 640x480, each from %u to %u", row->low, row->high); break;
     case VALUE_REGION: snprintf(text, size, "X,Y,W,H like 0,0,320,240, W and H from %u", row->low); break;
-    case VALUE_CHOICE:
-    case VALUE_CHOICES: *text = '\0', describe_words(row->value, " or ", text, size); break;
+    case VALUE_CHOICE: *text = '\0', describe_words(row->value, " or ", text, size); break;
+    case VALUE_CHOICES:
+        snprintf(text, size, "some of ");
+        describe_words(row->value, " and ", text, size);
+        snprintf(text + strlen(text), size - strlen(text), ", with commas between");
+        break;
     case VALUE_AMOUNT: snprintf(text, size, "a whole number, or 0 to 100 and %%"); break;
     case VALUE_AREA:
         snprintf(text, size, "X,Y,W,H like 0,0,320,240, W and H from %u, or a PNG file", row->low);
-        break;
-    case VALUE_SET:
-        snprintf(text, size, "some of ");
-        describe_words(row->value, " and ", text, size);
-        snprintf(text + strlen(text), size - strlen(text), ", each once and with commas between");
         break;
     case VALUE_FRAMES:
         snprintf(text, size, "N, A-B, A- or all, perhaps with :STEP, from %u", row->low);

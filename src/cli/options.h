@@ -13,7 +13,6 @@ struct option_value {
     unsigned choice;  /* which of the words of the table, from 0 */
     unsigned choices; /* a bit for each that was given, in any of them */
     bool percent;     /* of an amount */
-    unsigned set;     /* which words there are: a bit 1 << choice for each */
 };
 
 /* A VALUE_PAIR or VALUE_AREA as it was given. */

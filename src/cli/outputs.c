@@ -326,7 +326,7 @@ bool plan_begin(struct plan *plan, const struct arguments *args, const struct sc
         .lock = PTHREAD_MUTEX_INITIALIZER,
         .sweep = sweep,
         .frames = frames->given ? frames : NULL,
-        .passes = args->option[OPTION_AOV].set,
+        .passes = args->option[OPTION_AOV].choices,
         .scenes = scenes,
         .count = scenes->count * sweep->total,
     };

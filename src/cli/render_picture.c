@@ -95,7 +95,7 @@ static bool write_passes(const struct unit *unit, const struct load *load, const
     const struct option_value *option = unit->work->args.option;
     const struct monge_job job = {.threads = option[OPTION_THREADS].number[0], .cancel = interrupt_flag()};
     return !option[OPTION_AOV].given ||
-           aov_write(load->scene, &picture->settings, &picture->region, option[OPTION_AOV].set, &job,
+           aov_write(load->scene, &picture->settings, &picture->region, option[OPTION_AOV].choices, &job,
                      picture->output, &unit->work->loader.report);
 }
 
