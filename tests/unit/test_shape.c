@@ -42,6 +42,15 @@ static const struct quadric_form leaning[] = {
     {.xx = 1, .yy = 1, .zx = 1, .constant = -1, EXTENT(1.75, 1.25)},
 };
 
+/* Boxes without an end along one axis, and along the two others. */
+#define WITHOUT_END(x, y, z)                                                                                 \
+    { .constant = -1, .clip = BOX(-(x), -(y), -(z), x, y, z), .extent = BOX(-(x), -(y), -(z), x, y, z) }
+static const struct quadric_form endless[] = {
+    WITHOUT_END(INFINITY, 1, 1),        WITHOUT_END(1, INFINITY, 1),
+    WITHOUT_END(1, 1, INFINITY),        WITHOUT_END(1, INFINITY, INFINITY),
+    WITHOUT_END(INFINITY, 1, INFINITY), WITHOUT_END(INFINITY, INFINITY, 1),
+};
+
 static void make(struct alone *a, int shape) {
     switch (shape) {
     case SPHERE: alone_sphere(a, (vec3){0, 0, 0}, 1); return;
@@ -288,6 +297,24 @@ static void check_apex(void **state) {
     }
 }
 
+/* As far as the shape goes a ray may run by it; what has no end adds nothing, and no infinity. */
+static void check_endless(void **state) {
+    (void)state;
+    const vec3 axes[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    for (size_t i = 0; i < COUNT(endless); i++)
+        for (int k = 0; k < 3; k++) {
+            struct alone a;
+            struct crossing crossing;
+            alone_quadric(&a, &endless[i], AFFINE_IDENTITY);
+            const ray r = {vec3_scale(axes[k], 9), vec3_neg(axes[k])};
+            if (!shape_first_crossing(&a.p, a.ref, r, 0, INFINITY, &crossing)) continue;
+            const struct surface got = shape_surface(&a.p, a.ref, r, crossing);
+            assert_vec3_near(got.point, axes[k], 1e-15, "point");
+            assert_vec3_near(got.normal, axes[k], 1e-15, "normal");
+            assert_true(got.error > 0 && got.error < 1e-13);
+        }
+}
+
 static struct contains_row {
     const char *name;
     int shape;
@@ -410,7 +437,7 @@ static void check_bounds_of_scaled_hits(void **state) {
 
 int main(void) {
     struct CMUnitTest tests[COUNT(crossing_rows) + COUNT(first_rows) + COUNT(surface_rows) +
-                            COUNT(contains_rows) + COUNT(bounds_rows) + 3];
+                            COUNT(contains_rows) + COUNT(bounds_rows) + 4];
     size_t n = 0;
     for (size_t i = 0; i < COUNT(crossing_rows); i++)
         tests[n++] =
@@ -420,6 +447,7 @@ int main(void) {
     for (size_t i = 0; i < COUNT(surface_rows); i++)
         tests[n++] = (struct CMUnitTest){surface_rows[i].name, check_surface, NULL, NULL, &surface_rows[i]};
     tests[n++] = (struct CMUnitTest){"the apex of a cone has a normal", check_apex, NULL, NULL, NULL};
+    tests[n++] = (struct CMUnitTest){"errors without infinity", check_endless, NULL, NULL, NULL};
     for (size_t i = 0; i < COUNT(contains_rows); i++)
         tests[n++] =
             (struct CMUnitTest){contains_rows[i].name, check_contains, NULL, NULL, &contains_rows[i]};
