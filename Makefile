@@ -206,7 +206,7 @@ build-all: $(PROGRAM) $(BUILD)/libmonge.a $(UNIT:tests/unit/%.c=$(BUILD)/tests/%
 
 run-mutants: build-all $(BUILD)/tools/mutate
 	@CC='$(CC)' COMPILE='$(COMPILE)' LINK='$(LINK)' LIBS='$(LIBS)' VERSION=$(VERSION) JOBS=$(JOBS) \
-	    tools/mutants $(BUILD) $(N) $(SEED)
+	    WRAPPED='$(patsubst WRAPPED_%,%,$(filter WRAPPED_%,$(.VARIABLES)))' tools/mutants $(BUILD) $(N) $(SEED)
 
 run-tests: $(UNIT_PROGRAMS) $(PROGRAM_OF_TESTS)
 	@CC='$(CC)' FLAGS='$(LANGUAGE) $(WARNINGS) $(PKG_CFLAGS)' JOBS=$(JOBS) SHOW='$(T)' \

@@ -123,7 +123,7 @@ struct command_row {
     const char *name;
     const char *operands;       /* "SCENE...", "" */
     const char *doc;            /* no capital, no full stop */
-    const char *text[12];       /* paragraphs, up to a NULL */
+    const char *text[16];       /* paragraphs, up to a NULL */
     struct example examples[8]; /* up to a NULL */
     const char *operand;        /* "scene"; NULL where it needs none */
     enum status (*run)(const struct arguments *args);

@@ -2,6 +2,7 @@
  * open; so it does where the system has none. */
 #include <setjmp.h>
 #include <stdarg.h>
+#include <stdatomic.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -64,7 +65,7 @@ static void files_are_closed(void **state) {
 
 /* ---- A system that has no memory once: the library's comes from here, and libyaml's too ---- */
 
-static unsigned requests, refused;
+static atomic_uint requests, refused; /* a long text has a thread of its own */
 
 static bool has_memory(void) { return ++requests != refused; }
 
@@ -128,6 +129,9 @@ static void check_refusals(void **state) {
             assert_true(good);
             break;
         }
+#ifdef MONGE_HOSTILE
+        if (good) continue; /* without the memory for a thread it goes on without one */
+#endif
         assert_false(good);
         const bool short_of = strcmp(said, none) == 0 || strcmp(said, none_for_presets) == 0;
         if (!short_of) assert_string_equal(said, full);
