@@ -34,6 +34,12 @@ bool golden_is_file(const char *path) {
     return stat(path, &status) == 0 && S_ISREG(status.st_mode);
 }
 
+bool golden_check_file(const char *path) {
+    if (golden_is_file(path)) return true;
+    say_error("%s is not a file", path);
+    return false;
+}
+
 /* ---- Writing ---- */
 
 bool golden_make_folders(const char *path) {

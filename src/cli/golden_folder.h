@@ -12,6 +12,9 @@ char *golden_path(const char *folder, const char *name, const char *extension);
 
 bool golden_is_file(const char *path);
 
+/* The same of what is there: a pipe or a device would be read without end. False: told. */
+bool golden_check_file(const char *path);
+
 /* The file, complete or not at all, in folders that are made. False, with the reason told. */
 bool golden_write(const char *path, const struct monge_text *text);
 bool golden_make_folders(const char *path); /* that the file `path` needs */
