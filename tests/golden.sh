@@ -468,6 +468,14 @@ fresh
 
 # ---- What goes wrong ----
 
+fresh 'kind: hash'; exits 1 test s --golden g -q
+last='two times accept at once'
+for _ in 1 2 3 4 5; do
+    rm -f g/golden.lock
+    "$monge" accept one --golden g -q & first=$!
+    "$monge" accept two --golden g -q; wait $first
+    ok 'neither undoes the other' [ "$(grep -c pixels= g/golden.lock)" -eq 2 ]
+done
 for file in golden.lock golden.yaml; do
     fresh; rm -f g/golden.yaml; ln -s /dev/zero g/$file
     exits 2 test s --golden g; err_has "g/$file is not a file"

@@ -230,6 +230,7 @@ static bool begin(struct acceptance *a) {
     }
     a->folder = option[OPTION_GOLDEN].text;
     a->output = option[OPTION_TEST_OUTPUT].given ? option[OPTION_TEST_OUTPUT].text : "monge-test";
+    golden_hold(a->folder);
     return limits_read(a->args, &a->loader.limits) &&
            golden_settings_read(&a->settings, a->folder, NULL, &a->loader) &&
            golden_lock_read(&a->lock, a->folder) && read_run(a) && check_globs(a);
