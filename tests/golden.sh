@@ -481,7 +481,42 @@ if have git; then
 fi
 rm -rf goldens
 
+# ---- Commands to copy ----
+
+# of options that somebody else has written, nothing is a command
+fresh 'kind: hash' 'rules:' '  - {scenes: one, options: "--samples 2 -D '"'"'a=1 + 2'"'"' -D b=3"}'
+sed -i '1i params: {a: 1, b: 2}' s/one.yaml
+exits 1 test s --golden g -q; exits 0 accept --golden g
+sed -i 's/pixels=......../pixels=00000000/' g/golden.lock
+exits 1 test s --golden g; out_has "--samples 2 -D 'a=1 + 2' -D b=3 -o old.png"
+sed -i 's/options=.*/options=--samples 2;touch hurt $(touch hurt) -D a=`touch hurt`/' g/golden.lock
+exits 1 test s --golden g; out_has "--samples '2;touch' hurt '\$(touch' 'hurt)' -D 'a=\`touch hurt\`' -o old.png"
+fresh
+
 # ---- What goes wrong ----
+
+fresh 'kind: hash'; exits 1 test s --golden g -q
+last='two times accept at once'
+for _ in 1 2 3 4 5; do
+    rm -f g/golden.lock
+    "$monge" accept one --golden g -q & first=$!
+    "$monge" accept two --golden g -q; wait $first
+    ok 'neither undoes the other' [ "$(grep -c pixels= g/golden.lock)" -eq 2 ]
+done
+for file in golden.lock golden.yaml; do
+    fresh; rm -f g/golden.yaml; ln -s /dev/zero g/$file
+    exits 2 test s --golden g; err_has "g/$file is not a file"
+    rm g/$file
+done
+fresh
+# an orphan whose scene has come back, and one that a scene with other frames has left
+printf 'root: ../s\nrules:\n  - {scenes: turn, options: --frames all}\n' >g/golden.yaml
+printf 'image: {size: [20, 10], samples: 1}\nanimation: {frames: 3}\nscene: [{sphere: {center: [t, 0, 0]}}]\n' >s/turn.yaml
+exits 1 test --golden g -q; exits 0 accept --golden g; mv s/turn.yaml kept
+exits 1 test --golden g; says orphan turn-0002; mv kept s/turn.yaml
+exits 1 accept --prune --golden g; err_has 'turn-0002 is left as it is: its scene is there again'; there g/turn-0002.png
+sed -i 's/frames: 3/frames: 2/' s/turn.yaml; exits 1 test --golden g; says orphan turn-0003
+exits 0 accept --prune --golden g; missing g/turn-0003.png; there g/turn-0002.png
 
 fresh
 echo '{"a": 1}' >here.json; mkdir other; cp here.json other/results.json
@@ -494,6 +529,35 @@ exits 2 accept --golden g; err_has '`../one` is no name of a golden'; missing on
 exits 1 test s --golden g -q
 cp monge-test/new/two.png monge-test/new/one.png
 exits 1 accept --golden g; err_has 'one is left as it is: its new picture is not that of the run'
+if have python3; then
+    # its texts as they were, its pixels others, or none
+    cat >repaint.py <<'PYTHON'
+import struct, sys, zlib
+data = open(sys.argv[1], "rb").read()
+out, at = data[:8], 8
+while at < len(data):
+    size, = struct.unpack(">I", data[at:at + 4])
+    kind, body = data[at + 4:at + 8], data[at + 8:at + 8 + size]
+    if kind == b"IHDR": width, height, bits = struct.unpack(">IIB", body[:9])
+    if kind == b"IDAT": body = zlib.compress(bytes((1 + width * 3 * bits // 8) * height)) if sys.argv[2] == "black" else b"?"
+    out += struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
+    at += 12 + size
+open(sys.argv[1], "wb").write(out)
+PYTHON
+    for how in black none; do
+        fresh 'kind: hash'; exits 1 test s --golden g -q
+        python3 repaint.py monge-test/new/one.png $how
+        exits 1 accept one --golden g; err_has 'one is left as it is: its new picture is not that of the run'; missing g/golden.lock
+    done
+    fresh
+fi
+for edit in 's/"size": \[40, 30\]/"size": [0, 30]/' 's/"bits": 8/"bits": 9/' 's/\("stamp": .*"scene": "\)[0-9a-f]\{32\}/\1x\\n3456789012345678901234567890x/' \
+    's/\("stamp": .*"options": "\)/\1--size 9x9/'; do
+    fresh 'kind: hash'; exits 1 test s/one.yaml --golden g -q
+    sed "$edit" monge-test/results.json >x; ok "$edit changes it" sh -c '! cmp -s x monge-test/results.json'; cp x monge-test/results.json
+    exits 1 accept --golden g; err_has 'one is left as it is: its new picture is not that of the run'; missing g/golden.lock
+done
+fresh
 exits 1 test s --golden "$work/g" -q
 (mkdir -p away; cd away; "$monge" accept one --golden "$work/g" --output ../monge-test >out 2>err); cp away/err err
 err_has 'one is left as it is: its scene cannot be read from here'

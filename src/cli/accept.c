@@ -60,17 +60,34 @@ static bool options_have_changed(const struct acceptance *a, const struct golden
     return strcmp(golden_settings_find(&a->settings, c->scene_name)->rule->options, c->rule_options) != 0;
 }
 
+static bool says(const struct monge_picture *picture, const char *key, const char *text) {
+    const char *said = monge_picture_text(picture, key);
+    return strcmp(said ? said : "", text ? text : "") == 0;
+}
+
+/* Whether it is the picture that the run has written, with all that the run has noted of it: both are files that anybody
+ * may have changed. */
+static bool is_of_run(const struct golden_case *c, struct monge_picture *picture,
+                      struct monge_diagnostics *diag) {
+    const struct golden_stamp *s = &c->now;
+    char pixels[MONGE_HASH_SIZE];
+    return monge_picture_hash(picture, diag, pixels) && strcmp(pixels, s->pixels) == 0 &&
+           monge_picture_width(picture) == s->width && monge_picture_height(picture) == s->height &&
+           monge_picture_bits(picture) == s->bits && says(picture, "monge:scene", s->scene) &&
+           says(picture, "monge:program", s->program) && says(picture, "monge:options", s->options);
+}
+
 /* Why the new picture cannot be taken; NULL: it can. */
 static const char *find_obstacle(const struct acceptance *a, const struct golden_case *c,
                                  struct monge_diagnostics *diag) {
     struct monge_picture *picture = monge_picture_read(c->new_path, diag);
-    const char *pixels = picture ? monge_picture_text(picture, "monge:pixels") : NULL, *why = NULL;
+    const char *why = NULL;
     if (!picture)
         why = "its new picture cannot be read any more";
-    else if (!pixels || strcmp(pixels, c->now.pixels) != 0)
-        why = "its new picture is not that of the run";
     else if (strcmp(monge_program(), c->now.program) != 0)
         why = "the program has changed since the run";
+    else if (!is_of_run(c, picture, diag))
+        why = "its new picture is not that of the run";
     else if (access(c->scene, R_OK) != 0)
         why = "its scene cannot be read from here";
     else if (text_has_changed(a, c, picture, diag))
@@ -102,13 +119,34 @@ static void take_case(struct acceptance *a, struct golden_case *c) {
     }
 }
 
-static bool scene_is_back(const struct acceptance *a, const char *name) {
-    bool back = false;
-    for (int i = 0; i < 2 && !back && a->settings.root; i++) {
-        char *path = golden_path(a->settings.root, name, i == 0 ? ".yaml" : ".yml");
-        back = golden_is_file(path);
+static bool was_in_run(const struct acceptance *a, const char *scene) {
+    for (size_t i = 0; i < a->results.count; i++) {
+        const char *name = a->results.cases[i].scene_name;
+        if (name && strcmp(name, scene) == 0) return true;
+    }
+    return false;
+}
+
+static bool is_below_root(const struct acceptance *a, const char *scene) {
+    bool there = false;
+    for (int i = 0; i < 2 && !there && a->settings.root; i++) {
+        char *path = golden_path(a->settings.root, scene, i == 0 ? ".yaml" : ".yml");
+        there = golden_is_file(path);
         free(path);
     }
+    return there;
+}
+
+/* The golden is called as its scene, or that and what frames and parameters add behind a `-`. What a scene of the run had
+ * no golden for is none of its. */
+static bool scene_is_back(const struct acceptance *a, const char *name) {
+    char *scene = say_text("%s", name);
+    bool back = false;
+    for (char *end = scene + strlen(scene); end && !back; end = strrchr(scene, '-')) {
+        *end = '\0';
+        back = !was_in_run(a, scene) && is_below_root(a, scene);
+    }
+    free(scene);
     return back;
 }
 
@@ -192,6 +230,7 @@ static bool begin(struct acceptance *a) {
     }
     a->folder = option[OPTION_GOLDEN].text;
     a->output = option[OPTION_TEST_OUTPUT].given ? option[OPTION_TEST_OUTPUT].text : "monge-test";
+    golden_hold(a->folder);
     return limits_read(a->args, &a->loader.limits) &&
            golden_settings_read(&a->settings, a->folder, NULL, &a->loader) &&
            golden_lock_read(&a->lock, a->folder) && read_run(a) && check_globs(a);

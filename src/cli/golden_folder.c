@@ -2,8 +2,10 @@
 
 #include <dirent.h>
 #include <errno.h>
+#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -32,6 +34,17 @@ char *golden_path(const char *folder, const char *name, const char *extension) {
 bool golden_is_file(const char *path) {
     struct stat status;
     return stat(path, &status) == 0 && S_ISREG(status.st_mode);
+}
+
+bool golden_check_file(const char *path) {
+    if (golden_is_file(path)) return true;
+    say_error("%s is not a file", path);
+    return false;
+}
+
+void golden_hold(const char *folder) {
+    const int fd = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC); /* stays open */
+    while (fd >= 0 && flock(fd, LOCK_EX) != 0 && errno == EINTR) continue;
 }
 
 /* ---- Writing ---- */

@@ -12,6 +12,13 @@ char *golden_path(const char *folder, const char *name, const char *extension);
 
 bool golden_is_file(const char *path);
 
+/* The same of what is there: a pipe or a device would be read without end. False: told. */
+bool golden_check_file(const char *path);
+
+/* Waits until no other process holds the folder, up to the end of this one: of two that read, change and write its lock the
+ * later would undo what the earlier has done. Where there is no such folder, or no such thing as a lock, it goes on. */
+void golden_hold(const char *folder);
+
 /* The file, complete or not at all, in folders that are made. False, with the reason told. */
 bool golden_write(const char *path, const struct monge_text *text);
 bool golden_make_folders(const char *path); /* that the file `path` needs */

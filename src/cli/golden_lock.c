@@ -197,6 +197,7 @@ static bool check_names(const struct golden_lock *lock) {
 bool golden_lock_read(struct golden_lock *lock, const char *folder) {
     *lock = (struct golden_lock){.path = golden_path(folder, "golden.lock", "")};
     if (access(lock->path, F_OK) != 0 && errno == ENOENT) return true;
+    if (!golden_check_file(lock->path)) return false;
     struct monge_diagnostics *diag = monge_diagnostics_new();
     struct monge_text text = {NULL, 0};
     bool good = diag && monge_text_read(lock->path, NULL, &text, diag);

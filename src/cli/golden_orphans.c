@@ -6,11 +6,6 @@
 #include "cli/golden_folder.h"
 #include "cli/say.h"
 
-/* Whether the golden could be of the scene: NAME, or NAME- and what frames and parameters add. */
-static bool could_be_of(const char *golden, const char *name, size_t length) {
-    return strncmp(golden, name, length) == 0 && (!golden[length] || golden[length] == '-');
-}
-
 static bool is_broken(const struct golden_scene *scene) {
     for (size_t i = 0; i < scene->count; i++)
         if (scene->cases[i].status == GOLDEN_BROKEN) return true;
@@ -43,10 +38,11 @@ static bool is_below_root(const struct golden_run *run, const char *name, size_t
     return there;
 }
 
-/* Whether some scene that is still there may need it, though this run does not tell. */
+/* Whether some scene that is still there may need it, though this run does not tell: it is called NAME, or NAME- and
+ * what frames and parameters add. */
 static bool may_be_needed(const struct golden_run *run, const char *golden) {
-    for (size_t length = 1; length <= strlen(golden); length++) {
-        if (!could_be_of(golden, golden, length)) continue;
+    for (size_t length = 1, all = strlen(golden); length <= all; length++) {
+        if (golden[length] && golden[length] != '-') continue;
         const struct golden_scene *scene = scene_of(run, golden, length);
         if (scene ? is_broken(scene) : is_below_root(run, golden, length)) return true;
     }

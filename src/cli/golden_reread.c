@@ -4,6 +4,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "cli/golden_folder.h"
 #include "cli/golden_results.h"
 #include "cli/say.h"
 
@@ -26,7 +27,9 @@ static bool read_flag(const struct monge_value *mapping, const char *key) {
 
 static void read_hash(const struct monge_value *mapping, const char *key, char hash[MONGE_HASH_SIZE]) {
     const char *text = monge_value_text(monge_value_get(mapping, key));
-    if (text && strlen(text) == MONGE_HASH_SIZE - 1) memcpy(hash, text, MONGE_HASH_SIZE);
+    if (text && strlen(text) == MONGE_HASH_SIZE - 1 &&
+        strspn(text, "0123456789abcdef") == MONGE_HASH_SIZE - 1)
+        memcpy(hash, text, MONGE_HASH_SIZE);
 }
 
 static uint32_t read_whole(const struct monge_value *value) {
@@ -92,6 +95,7 @@ static bool read_cases(struct golden_results *results, const struct monge_value 
 bool golden_results_read(struct golden_results *results, const char *path) {
     *results = (struct golden_results){0};
     if (access(path, F_OK) != 0 && errno == ENOENT) return true;
+    if (!golden_check_file(path)) return false;
     struct monge_diagnostics *diag = monge_diagnostics_new();
     struct monge_document *document = diag ? monge_document_read(path, NULL, diag) : NULL;
     const struct monge_value *root = document ? monge_document_root(document) : NULL;

@@ -75,6 +75,7 @@ static bool read_options(struct golden_settings *settings, struct golden_rule *r
 
 static bool read_file(struct golden_settings *settings, const struct loader *loader) {
     if (access(settings->path, F_OK) != 0 && errno == ENOENT) return true;
+    if (!golden_check_file(settings->path)) return false;
     struct monge_diagnostics *diag = monge_diagnostics_new();
     settings->file = diag ? monge_goldens_read(settings->path, &loader->limits.load, diag) : NULL;
     if (diag) monge_diagnostics_print(diag, say_stream());

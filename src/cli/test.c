@@ -35,7 +35,8 @@ static bool wants(const struct test *test, enum option_id option) { return test-
 static char *root_from_here(const char *root) {
     char *here = getcwd(NULL, 0);
     const size_t length = here ? strlen(here) : 0;
-    const bool below = length > 1 && strncmp(root, here, length) == 0 && (root[length] == '/' || !root[length]);
+    const bool below =
+        length > 1 && strncmp(root, here, length) == 0 && (root[length] == '/' || !root[length]);
     char *path = !below ? say_text("%s", root) : say_text("%s", root[length] ? root + length + 1 : ".");
     free(here);
     return path;
@@ -216,6 +217,9 @@ static bool check_names(const struct golden_results *results) {
 
 static bool take_new(struct test *test) {
     struct golden_run *run = &test->run;
+    golden_hold(run->folder); /* others may have written the lock during the run */
+    golden_lock_free(&run->lock);
+    if (!golden_lock_read(&run->lock, run->folder)) return false;
     size_t taken = 0, wanted = 0;
     bool lines = false;
     for (size_t i = 0; i < test->results.count; i++) {

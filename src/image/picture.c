@@ -12,7 +12,12 @@
 
 /* What a file may take: pictures as large as can be rendered have less. */
 #define MAX_FILE ((size_t)4 << 30)
-enum { MAX_CHUNK_MEMORY = 1 << 23, MAX_CHUNKS_KEPT = 128, CHUNK_FRAME = 12 /* length, type, check sum */ };
+enum {
+    MAX_CHUNK_MEMORY = 1 << 23,
+    MAX_CHUNKS_KEPT = 128,
+    MAX_PACKED_TEXT = 1 << 16, /* of all compressed texts: at most 66 MB when it is inflated */
+    CHUNK_FRAME = 12           /* length, type, check sum */
+};
 
 static bool fail(char reason[PICTURE_REASON_SIZE], const char *format, ...)
     __attribute__((format(printf, 2, 3)));
@@ -84,13 +89,29 @@ static bool check_chunk(const uint8_t *chunk, size_t left, char reason[PICTURE_R
     return fail(reason, "it is damaged: the check sum of its chunk %.4s is wrong", (const char *)chunk + 4);
 }
 
+/* A compressed text: zTXt, or iTXt with the flag behind its key that says so. */
+static bool is_packed_text(const uint8_t *chunk) {
+    const uint8_t *end = memchr(chunk + 8, '\0', read_big(chunk));
+    return chunk_is(chunk, "zTXt") ||
+           (chunk_is(chunk, "iTXt") && end && end + 1 < chunk + 8 + read_big(chunk) && end[1] != 0);
+}
+
+/* A few kilobytes can be gigabytes of text: of what is beyond the limit libpng is to know nothing. */
+static void hide_long_text(uint8_t *chunk, size_t *packed) {
+    if (!is_packed_text(chunk)) return;
+    *packed += read_big(chunk);
+    if (*packed > MAX_PACKED_TEXT) memcpy(chunk + 4, "xtXt", 4); /* one that nobody knows */
+}
+
 static bool check_chunks(struct monge_picture *picture, char reason[PICTURE_REASON_SIZE]) {
     struct picture_data *data = &picture->data;
+    size_t packed = 0;
     if (picture->file_size < 8 || png_sig_cmp(picture->file, 0, 8) != 0)
         return fail(reason, picture->file_size ? "it is no PNG file" : "the file is empty");
     for (size_t at = 8;; at += read_big(picture->file + at) + CHUNK_FRAME) {
-        const uint8_t *chunk = picture->file + at;
+        uint8_t *chunk = picture->file + at;
         if (!check_chunk(chunk, picture->file_size - at, reason)) return false;
+        hide_long_text(chunk, &packed);
         if (chunk_is(chunk, "IDAT")) {
             if (data->last && data->last != at)
                 return fail(reason, "it is damaged: its pixels are in pieces");

@@ -464,5 +464,4 @@ $('helplist').replaceChildren(...KEYS.flatMap(([key, doc]) => [make('dt', {}, ke
 addEventListener('resize', () => { if (state.fitted) fit(); else place(); });
 drawFilters();
 drawList();
-const wanted = decodeURIComponent(location.hash.slice(1));
-showScene(scenes.find((scene) => scene.name === wanted) ?? scenes[0] ?? null);
+showScene(scenes.find((scene) => location.hash === `#${encodeURIComponent(scene.name)}`) ?? scenes[0] ?? null);
