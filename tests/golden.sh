@@ -508,6 +508,12 @@ for file in golden.lock golden.yaml; do
     exits 2 test s --golden g; err_has "g/$file is not a file"
     rm g/$file
 done
+# what a link in the folder leads to stays as it is
+fresh; mkdir -p away; echo mine >away/victim; cp away/victim away/kept
+exits 1 test s --golden g -q; ln -s ../away/victim g/one.png; ln -s ../away g/in
+exits 2 accept --golden g; err_has 'g/one.png is a link: goldens are files in their folder'; err_has 'g/in is a link'
+ok 'nothing is written outside of the goldens' cmp away/victim away/kept
+ok 'and nothing is made there' [ "$(ls away)" = "$(printf 'kept\nvictim')" ]; there g/two.png
 fresh
 # an orphan whose scene has come back, and one that a scene with other frames has left
 printf 'root: ../s\nrules:\n  - {scenes: turn, options: --frames all}\n' >g/golden.yaml

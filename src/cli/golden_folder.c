@@ -83,6 +83,22 @@ bool golden_copy(const char *from, const char *to) {
     return good;
 }
 
+bool golden_check_inside(const char *folder, const char *path) {
+    char *copy = say_text("%s", path);
+    bool inside = true;
+    for (char *at = copy + strlen(folder); inside && at;) {
+        struct stat status;
+        char *slash = strchr(at + 1, '/');
+        if (slash) *slash = '\0';
+        inside = lstat(copy, &status) != 0 || !S_ISLNK(status.st_mode);
+        if (!inside) say_error("%s is a link: goldens are files in their folder", copy);
+        if (slash) *slash = '/';
+        at = slash;
+    }
+    free(copy);
+    return inside;
+}
+
 bool golden_remove(const char *folder, const char *path) {
     if (unlink(path) != 0) {
         if (errno == ENOENT) return true;

@@ -24,6 +24,9 @@ bool golden_write(const char *path, const struct monge_text *text);
 bool golden_make_folders(const char *path); /* that the file `path` needs */
 bool golden_copy(const char *from, const char *to);
 
+/* Whether a path below the folder stays there: false, with the reason told, where a part of it is a symbolic link. */
+bool golden_check_inside(const char *folder, const char *path);
+
 /* Removes a file, and those folders above it up to `folder` that have become empty. False, with the reason told;
  * one that is not there is no trouble. */
 bool golden_remove(const char *folder, const char *path);

@@ -18,7 +18,8 @@ static bool take_layers(const char *folder, const char *from, const char *to) {
     bool good = true;
     for (enum monge_layer layer = 0; good && layer < MONGE_LAYERS; layer++) {
         char *new = aov_path(layer, from), *old = aov_path(layer, to);
-        good = golden_is_file(new) ? golden_copy(new, old) : golden_remove(folder, old);
+        good = golden_check_inside(folder, old) &&
+               (golden_is_file(new) ? golden_copy(new, old) : golden_remove(folder, old));
         free(new);
         free(old);
     }
@@ -28,8 +29,8 @@ static bool take_layers(const char *folder, const char *from, const char *to) {
 /* The picture last: while it is the old one, the case still fails. */
 static bool take_picture(const char *folder, const struct golden_case *c) {
     char *to = golden_path(folder, c->name, ".png");
-    const bool good =
-        golden_make_folders(to) && take_layers(folder, c->new_path, to) && golden_copy(c->new_path, to);
+    const bool good = golden_check_inside(folder, to) && golden_make_folders(to) &&
+                      take_layers(folder, c->new_path, to) && golden_copy(c->new_path, to);
     free(to);
     return good;
 }
