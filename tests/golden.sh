@@ -137,7 +137,7 @@ for kind in png hash both; do
     ok 'the others are as before' [ "$(sums g | grep -v 'one.png\|lock')" = "$(grep -v 'one.png\|lock' before)" ]
 
     rm s/two.yaml
-    exits 1 test s --golden g; says orphan two; out_has 'its scene is gone'
+    exits 1 test s --golden g; says orphan two; out_has 'no scene makes it any more'
     exits 0 test s/one.yaml --golden g; out_lacks orphan
     exits 1 test s --golden g -q
     exits 0 accept --golden g; out_has '0 taken'
@@ -507,6 +507,14 @@ for file in golden.lock golden.yaml; do
     fresh; rm -f g/golden.yaml; ln -s /dev/zero g/$file
     exits 2 test s --golden g; err_has "g/$file is not a file"
     rm g/$file
+done
+# passes that are asked for later
+for kind in png hash both; do
+    fresh "kind: $kind"; exits 1 test s --golden g -q; exits 0 accept --golden g -q; exits 0 test s --golden g -q
+    printf 'kind: %s\nrules: [{scenes: one, aov: true}]\n' $kind >g/golden.yaml
+    exits 1 test s --golden g; says missing one; out_has 'the golden has no passes'; out_has '2 same, 1 missing'
+    exits 0 accept --golden g -q; exits 0 test s --golden g -q
+    scene s/one.yaml red 1.2; exits 1 test s --golden g; says changed one; out_has 'geometry'
 done
 # what a link in the folder leads to stays as it is
 fresh; mkdir -p away; echo mine >away/victim; cp away/victim away/kept

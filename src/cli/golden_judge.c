@@ -4,6 +4,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "cli/aov.h"
 #include "cli/golden_folder.h"
 #include "cli/golden_run.h"
 #include "cli/say.h"
@@ -109,11 +110,22 @@ static bool halves_agree(const struct golden_run *run, struct golden_case *c) {
     return miss(c);
 }
 
+/* A rule that asks for passes may be younger than the golden. */
+static bool has_passes(struct golden_case *c) {
+    if (!c->aov) return true;
+    char *path = c->golden_path ? aov_path(MONGE_LAYER_OBJECT, c->golden_path) : NULL;
+    const bool there = path ? golden_is_file(path) : *c->old.layers[0];
+    free(path);
+    if (there) return true;
+    golden_add_message(c, "the golden has no passes, which `aov: true` asks for: to accept it adds them");
+    return miss(c);
+}
+
 bool golden_find(const struct golden_run *run, struct golden_case *c) {
     char *path = golden_path(run->folder, c->name, ".png");
     const bool found = find_at(c, golden_lock_find(&run->lock, c->name), path, run->lock.path);
     free(path);
-    return found && halves_agree(run, c);
+    return found && halves_agree(run, c) && has_passes(c);
 }
 
 /* ---- Without rendering ---- */

@@ -251,13 +251,18 @@ static enum status judge(const struct test *test) {
 }
 
 static void hint(const struct test *test) {
-    bool can = false;
-    for (size_t i = 0; i < test->results.count; i++)
+    bool can = false, orphans = false;
+    for (size_t i = 0; i < test->results.count; i++) {
         can |= golden_can_take(&test->results.cases[i]) && !test->results.cases[i].taken;
-    if (!can || test->teller.tap || test->teller.quiet) return;
+        orphans |= test->results.cases[i].status == GOLDEN_ORPHAN;
+    }
+    if (!(can || orphans) || test->teller.tap || test->teller.quiet) return;
     const bool usual = !wants(test, OPTION_TEST_OUTPUT);
-    fprintf(test->teller.out, "`monge accept --golden %s%s%s` takes the new pictures\n", test->run.folder,
-            usual ? "" : " --output ", usual ? "" : test->run.output);
+    fprintf(test->teller.out, "`monge accept --golden %s%s%s%s` %s\n", test->run.folder,
+            usual ? "" : " --output ", usual ? "" : test->run.output, orphans ? " --prune" : "",
+            !orphans ? "takes the new pictures"
+            : can    ? "takes the new pictures and removes the orphans"
+                     : "removes the orphans");
 }
 
 /* ---- All of it ---- */
