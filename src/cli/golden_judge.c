@@ -258,10 +258,11 @@ static void set_old_command(const struct golden_run *run, struct golden_case *c)
     char *options = quoted_options(c->old.options ? c->old.options : "");
     char *line = golden_lock_line(c->name, &c->old), *quoted_line = golden_quoted(line);
     char *lock = golden_quoted(run->lock.path), *scene = golden_quoted(c->scene);
-    c->old_command =
-        say_text("git worktree add /tmp/monge-old \"$(git log -1 --format=%%h -S %s -- %s)\" && monge "
-                 "render \"/tmp/monge-old/$(git ls-files --full-name %s)\"%s -o old.png",
-                 quoted_line, lock, scene, options);
+    c->old_command = say_text(
+        "old=$(mktemp -d) && git worktree add \"$old\" \"$(git log -1 --format=%%h -S %s -- %s)\" && "
+        "monge render \"$old/$(git ls-files --full-name %s)\"%s -o old.png; "
+        "git worktree remove --force \"$old\"",
+        quoted_line, lock, scene, options);
     free(options);
     free(scene);
     free(lock);
