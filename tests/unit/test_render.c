@@ -14,6 +14,7 @@
 #endif
 
 #include "monge.h"
+#include "near.h"
 #include "render/camera.h"
 
 static struct monge_scene *load(const char *text) {
@@ -428,6 +429,31 @@ static void test_framing(void **state) {
             }
 }
 
+/* From within a ball of glass in a larger one of the same glass, whose centre is the eye: nothing is bent where it goes on
+ * in the same, nor where it leaves straight. So the sky is as without them. */
+static void test_eye_in_glass(void **state) {
+    (void)state;
+    static const char form[] =
+        "image: {size: [24, 16], samples: 1, background: {bottom: '#204060', top: '#f0c080'}}\n"
+        "camera: {eye: [0, 0, 0], look_at: [0.2, 0.3, -1], fov: 100}\n"
+        "lights: []\n"
+        "scene:\n"
+        "  - group: [{sphere: {radius: %g}}, {sphere: {center: [%g, 0, 0], radius: %g}}]\n"
+        "    material: {diffuse: black, refraction: 1, index: 1.5}\n";
+    char glass[600], sky[600];
+    snprintf(glass, sizeof glass, form, 5.0, 0.6, 1.0);
+    snprintf(sky, sizeof sky, form, 1e-3, 0.0, 2e-3); /* the eye is in the middle of both: straight again */
+    struct monge_scene *scenes[] = {load(glass), load(sky)};
+    struct monge_film *films[] = {render(scenes[0], NULL, 1), render(scenes[1], NULL, 1)};
+    for (size_t i = 0; i < 24 * 16 * 3; i++)
+        assert_near((double)monge_film_pixels(films[0])[i], (double)monge_film_pixels(films[1])[i], 1e-6,
+                    "the sky");
+    for (int i = 0; i < 2; i++) {
+        monge_film_free(films[i]);
+        monge_scene_free(scenes[i]);
+    }
+}
+
 int main(void) {
     struct CMUnitTest rows[sizeof counts / sizeof *counts];
     for (size_t i = 0; i < sizeof counts / sizeof *counts; i++)
@@ -441,6 +467,7 @@ int main(void) {
         cmocka_unit_test(test_threads),
         cmocka_unit_test(test_regions),
         cmocka_unit_test(test_tiles),
+        cmocka_unit_test(test_eye_in_glass),
         cmocka_unit_test(test_scale_of_the_world),
         cmocka_unit_test(test_perspective),
         cmocka_unit_test(test_orthographic),
