@@ -242,9 +242,9 @@ last='several, stopped'; for i in 1 2 3 4; do cp long.yaml stop-$i.yaml; done
 "$monge" render stop-*.yaml -j 3 -q "${long[@]}" -o stopped/ 2>err & pid=$!
 until [ -d stopped ]; do sleep 0.01; done; sleep 0.1; kill -TERM $pid; wait $pid; status=$?
 ok "the signal ends it" [ $status -eq 143 ]; ok "nothing is left" [ -z "$(ls -A stopped)" ]
-part() { run render long.yaml --samples 1 --resume -o "${1:-long.png}"; }
+part() { run render long.yaml --samples 1 --shadow 0.9 --resume -o "${1:-long.png}"; }
 rm long.png; cp saved .long.png.partial; part; err_lacks resumed; missing .long.png.partial
-run render --samples 1 -q long.yaml -o short.png; same long.png short.png
+run render --samples 1 --shadow 0.9 -q long.yaml -o short.png; same long.png short.png
 rm long.png; { head -c -1000 saved; head -c 5000 /dev/urandom; } >.long.png.partial
 exits 0 render long.yaml "${long[@]}" --resume; err_has resumed; same long.png whole.png
 rm long.png; cp saved .long.png.partial; printf XXXX | dd of=.long.png.partial bs=1 seek=9000 conv=notrunc 2>/dev/null
