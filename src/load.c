@@ -113,8 +113,10 @@ static bool keep_tolerance(struct load *load) {
     const struct object_value *object = object_object(load->scene->result.file, KEY_FILE_TOLERANCE);
     if (!object) return true;
     const bool good = face_tolerance(load->diag, object, tolerance);
-    tolerance->reason = good ? strdup(tolerance->reason) : NULL;
-    if (good && !tolerance->reason)
+    const size_t size = good ? strlen(tolerance->reason) + 1 : 0;
+    char *reason = good ? malloc(size) : NULL;
+    tolerance->reason = reason ? memcpy(reason, tolerance->reason, size) : NULL;
+    if (good && !reason)
         diag_failure(load->diag, "out-of-memory", "%s: out of memory", load->name);
     return tolerance->reason;
 }

@@ -19,15 +19,14 @@ struct hash texts_hash(const struct lang_result *result) {
 }
 
 char *texts_files(const struct lang_result *result) {
-    char *text = NULL;
-    size_t size = 0;
-    FILE *out = open_memstream(&text, &size);
-    if (!out) return NULL;
+    size_t size = 1;
+    for (uint32_t i = 1; i < result->text_count; i++) size += strlen(result->texts[i].path) + 1;
+    char *text = malloc(size), *at = text;
+    if (!text) return NULL;
     for (uint32_t i = 1; i < result->text_count; i++)
-        fprintf(out, "%s%s", i > 1 ? "\n" : "", result->texts[i].path);
-    const bool written = fclose(out) == 0;
-    if (!written) free(text);
-    return written ? text : NULL;
+        at += sprintf(at, "%s%s", i > 1 ? "\n" : "", result->texts[i].path);
+    *at = '\0';
+    return text;
 }
 
 /* The scene, and then each of the lines. */

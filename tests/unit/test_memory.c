@@ -5,6 +5,7 @@
 #include <stdatomic.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -16,6 +17,7 @@
 
 static const char text[] =
     "params: {n: 3}\n"
+    "tolerance: {max: 0.1, reason: it is a test}\n"
     "define: {flake: {params: {d: 0}, objects: [{sphere: {}}, {when: d > 0, for: {i: 5}, use: flake, with: "
     "{d: d - 1},\n"
     "  transform: [{scale: 1 / 3}, {translate: [i, 0, 0]}]}]}}\n"
@@ -140,10 +142,39 @@ static void check_refusals(void **state) {
     assert_true(told[0] > 0 && told[1] > 0);
 }
 
+/* The first request of each is refused. */
+static void other_readers_say_so(void **state) {
+    (void)state;
+    static const char none[] = "monge: error[out-of-memory]: small.yaml: out of memory\n";
+    char folder[] = "/tmp/monge-memory-XXXXXX";
+    assert_true(mkdtemp(folder) && chdir(folder) == 0);
+    FILE *file = fopen("small.yaml", "w");
+    fputs(text, file);
+    fclose(file);
+    for (int reader = 0; reader < 2; reader++) {
+        char said[400] = "", hash[MONGE_HASH_SIZE];
+        struct monge_diagnostics *diag = monge_diagnostics_new();
+        requests = 0;
+        refused = 1;
+        if (reader == 0)
+            assert_null(monge_picture_read("small.yaml", diag));
+        else
+            assert_false(monge_files_hash("small.yaml", "", NULL, diag, hash));
+        refused = 0;
+        FILE *out = fmemopen(said, sizeof said, "w");
+        monge_diagnostics_write(diag, MONGE_FORMAT_TEXT, out);
+        fclose(out);
+        monge_diagnostics_free(diag);
+        assert_string_equal(said, none);
+    }
+    assert_true(unlink("small.yaml") == 0 && chdir("/") == 0 && rmdir(folder) == 0);
+}
+
 int main(void) {
-    struct CMUnitTest tests[2 + sizeof tasks / sizeof *tasks] = {cmocka_unit_test(within_any_memory),
-                                                                 cmocka_unit_test(files_are_closed)};
+    struct CMUnitTest tests[3 + sizeof tasks / sizeof *tasks] = {cmocka_unit_test(within_any_memory),
+                                                                 cmocka_unit_test(files_are_closed),
+                                                                 cmocka_unit_test(other_readers_say_so)};
     for (size_t i = 0; i < sizeof tasks / sizeof *tasks; i++)
-        tests[2 + i] = (struct CMUnitTest){tasks[i].name, check_refusals, NULL, NULL, &tasks[i]};
+        tests[3 + i] = (struct CMUnitTest){tasks[i].name, check_refusals, NULL, NULL, &tasks[i]};
     return cmocka_run_group_tests_name("memory", tests, NULL, NULL);
 }
