@@ -1,11 +1,8 @@
 #include "cli/stats.h"
 
-#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include "cli/say.h"
 
@@ -30,47 +27,12 @@ static void print_all(FILE *out, const struct picture *pictures, size_t count) {
 
 /* ---- Files ---- */
 
-static bool write_and_close(FILE *file, const struct picture *pictures, size_t count) {
-    print_all(file, pictures, count);
-    const bool good = !ferror(file) && fflush(file) == 0;
-    return fclose(file) == 0 && good;
-}
-
-/* Gives the temporary file the permissions of the one it replaces, or of a new one. */
-static bool set_permissions(int fd, const char *target) {
-    struct stat old;
-    if (stat(target, &old) == 0) return fchmod(fd, old.st_mode & 0777) == 0;
-    const mode_t mask = umask(0);
-    umask(mask);
-    return fchmod(fd, 0666 & ~mask) == 0;
-}
-
-static bool replace_file(const char *target, const struct picture *pictures, size_t count) {
-    char *temporary = say_text("%s.XXXXXX.tmp", target);
-    const int fd = mkstemps(temporary, 4);
-    FILE *file = fd >= 0 && set_permissions(fd, target) ? fdopen(fd, "w") : NULL;
-    bool good = file && write_and_close(file, pictures, count);
-    good = good && rename(temporary, target) == 0;
-    const int reason = errno;
-    if (!file && fd >= 0) close(fd);
-    if (!good && fd >= 0) unlink(temporary);
-    free(temporary);
-    errno = reason;
-    return good;
-}
-
-/* A link is followed, and what is there but is no file (a pipe, a device) is written as it is. */
-static bool write_file(const char *path, const struct picture *pictures, size_t count) {
-    struct stat there;
-    if (stat(path, &there) != 0) return replace_file(path, pictures, count);
-    if (!S_ISREG(there.st_mode)) {
-        FILE *file = fopen(path, "w");
-        return file && write_and_close(file, pictures, count);
-    }
-    char *target = realpath(path, NULL);
-    const bool good = target && replace_file(target, pictures, count);
-    free(target);
-    return good;
+static bool write_file(const char *path, const struct monge_text *text) {
+    struct monge_diagnostics *diag = monge_diagnostics_new();
+    const bool written = diag && monge_text_write(path, text, diag);
+    if (diag && !written) monge_diagnostics_print(diag, stderr);
+    monge_diagnostics_free(diag);
+    return written;
 }
 
 bool stats_write(const char *path, const struct picture *pictures, size_t count) {
@@ -78,7 +40,12 @@ bool stats_write(const char *path, const struct picture *pictures, size_t count)
         print_all(stdout, pictures, count); /* streams_close looks after it */
         return true;
     }
-    if (write_file(path, pictures, count)) return true;
-    say_error("cannot write %s: %s", path, strerror(errno));
-    return false;
+    struct monge_text text = {NULL, 0};
+    FILE *out = open_memstream(&text.bytes, &text.size);
+    if (out) print_all(out, pictures, count);
+    const bool made = out && !ferror(out) && fclose(out) == 0;
+    if (!made) say_error("%s: out of memory", path);
+    const bool written = made && write_file(path, &text);
+    free(text.bytes);
+    return written;
 }
