@@ -35,7 +35,8 @@ static uint64_t pixel_value(const struct monge_layers *layers, enum monge_layer 
 
 bool monge_layer_hash(const struct monge_layers *layers, enum monge_layer layer, char text[MONGE_HASH_SIZE]) {
     struct hash hash;
-    const bool known = layer == MONGE_LAYER_DEPTH || layer == MONGE_LAYER_NORMAL || layer == MONGE_LAYER_SHADOW;
+    const bool known =
+        layer == MONGE_LAYER_DEPTH || layer == MONGE_LAYER_NORMAL || layer == MONGE_LAYER_SHADOW;
     if (!known || !(layers->set >> layer & 1)) return false;
     hash_begin(&hash);
     hash_integer(&hash, layers->region.width);

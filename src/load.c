@@ -116,8 +116,7 @@ static bool keep_tolerance(struct load *load) {
     const size_t size = good ? strlen(tolerance->reason) + 1 : 0;
     char *reason = good ? malloc(size) : NULL;
     tolerance->reason = reason ? memcpy(reason, tolerance->reason, size) : NULL;
-    if (good && !reason)
-        diag_failure(load->diag, "out-of-memory", "%s: out of memory", load->name);
+    if (good && !reason) diag_failure(load->diag, "out-of-memory", "%s: out of memory", load->name);
     return tolerance->reason;
 }
 

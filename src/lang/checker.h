@@ -79,7 +79,7 @@ struct checker {
     bool waiting;                         /* a name was looked for in vain while provisional */
     bool included;          /* the file that is checked is there for its definitions: it needs no scene */
     bool rehearsing;        /* names and forms are checked; values are not known, nothing is placed */
-    bool in_template; /* of what is rehearsed */
+    bool in_template;       /* of what is rehearsed */
     bool stopped;           /* a limit was passed: evaluation is over */
     bool moved;             /* the animation's variables were read */
     unsigned depth;         /* of templates in use */
@@ -95,8 +95,8 @@ struct mapping {
     const struct node *node;           /* NODE_MAPPING */
     const struct object_value *object; /* what it becomes; its span is the alias's where there is one */
     const struct node *given[CHECK_MAX_KEYS]; /* the first node of each key of the kind; NULL: not there */
-    signed char index[CHECK_MAX_KEYS];        /* which keys the first pairs have, in their order; -1: unknown */
-    uint64_t meant;                           /* bit i: an unknown key was probably this one */
+    signed char index[CHECK_MAX_KEYS]; /* which keys the first pairs have, in their order; -1: unknown */
+    uint64_t meant;                    /* bit i: an unknown key was probably this one */
 };
 
 /* ---- scalars.c: one value each. False when it was reported as wrong; *out is then untouched. ---- */

@@ -58,7 +58,8 @@ static void add_info(struct builder *b, const struct placement *at, enum primiti
                      uint32_t index) {
     struct primitives *p = &b->set->primitives;
     p->info = builder_grow(b, p->info, p->count, &b->set->info_room, sizeof *p->info);
-    p->info[p->count++] = (struct primitive_info){primitive_ref_make(kind, index), at->material, b->origin, b->object};
+    p->info[p->count++] =
+        (struct primitive_info){primitive_ref_make(kind, index), at->material, b->origin, b->object};
 }
 
 /* Room for one more primitive of a kind and its number; false when there can be no more. */

@@ -205,7 +205,8 @@ static void powers_of_many(void **state) {
     for (int i = 0; i < COUNTED; i++) {
         float one;
         elementary_powf(1, base + i, exponent + i, &one);
-        if (memcmp(&one, &many[i], sizeof one) != 0) fail_msg("%a ^ %a: %a or %a", base[i], exponent[i], one, many[i]);
+        if (memcmp(&one, &many[i], sizeof one) != 0)
+            fail_msg("%a ^ %a: %a or %a", base[i], exponent[i], one, many[i]);
         const double want = elementary_pow((double)base[i], (double)exponent[i]);
         assert_near((double)one, want, 1.2e-7 * want, "power");
     }

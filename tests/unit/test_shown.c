@@ -22,7 +22,8 @@ static bool has_line(const char *lock, const char *name, const char *pixels) {
     for (const char *line = lock; line && *line; line = strchr(line, '\n'), line += line != NULL) {
         const char *end = strchr(line, ' '), *at = strstr(line, begin), *found = strstr(line, hash);
         const char *stop = strchr(line, '\n');
-        if (end && at && found && stop && at < end && found < stop && (at == line || at[-1] == '/')) return true;
+        if (end && at && found && stop && at < end && found < stop && (at == line || at[-1] == '/'))
+            return true;
     }
     return false;
 }
@@ -36,7 +37,8 @@ static void check_picture(const char *lock, const char *file) {
     assert_non_null(picture);
     assert_true(monge_picture_hash(picture, diag, pixels));
     if (!has_line(lock, name, pixels))
-        fail_msg("%s is not the picture of tests/golden/golden.lock: tests/goldens.sh --update renews both", path);
+        fail_msg("%s is not the picture of tests/golden/golden.lock: tests/goldens.sh --update renews both",
+                 path);
     monge_picture_free(picture);
     monge_diagnostics_free(diag);
 }
