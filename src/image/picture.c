@@ -10,6 +10,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/pages.h"
+
 /* What a file may take: pictures as large as can be rendered have less. */
 #define MAX_FILE ((size_t)4 << 30)
 enum {
@@ -57,7 +59,7 @@ static bool read_descriptor(int fd, uint8_t **bytes, size_t *size) {
     errno = EFBIG;
     if (status.st_size > (off_t)MAX_FILE) return false;
     const size_t room = S_ISREG(status.st_mode) ? (size_t)status.st_size + 1 : 1 << 16;
-    *bytes = malloc(room);
+    *bytes = pages_alloc(room);
     return *bytes && read_stream(fd, room, bytes, size);
 }
 
@@ -103,24 +105,43 @@ static void hide_long_text(uint8_t *chunk, size_t *packed) {
     if (*packed > MAX_PACKED_TEXT) memcpy(chunk + 4, "xtXt", 4); /* one that nobody knows */
 }
 
+static void write_big(uint8_t *at, size_t number) {
+    for (int i = 0; i < 4; i++) at[i] = (uint8_t)(number >> (24 - 8 * i));
+}
+
+/* Moves what an IDAT chunk has to the end of what those before it have. */
+static void join_data(struct picture_data *data, uint8_t *file, size_t at) {
+    const size_t size = read_big(file + at);
+    if (!data->last) data->first = at;
+    memmove(file + data->first + 8 + data->bytes, file + at + 8, size);
+    data->bytes += size;
+    data->last = at + size + CHUNK_FRAME;
+}
+
+static bool finish_data(struct monge_picture *picture, char reason[PICTURE_REASON_SIZE]) {
+    if (!picture->data.last) return fail(reason, "it has no pixels");
+    if (picture->data.bytes > PNG_UINT_31_MAX) return fail(reason, "it is too large");
+    write_big(picture->file + picture->data.first, picture->data.bytes);
+    return true;
+}
+
 static bool check_chunks(struct monge_picture *picture, char reason[PICTURE_REASON_SIZE]) {
     struct picture_data *data = &picture->data;
     size_t packed = 0;
     if (picture->file_size < 8 || png_sig_cmp(picture->file, 0, 8) != 0)
         return fail(reason, picture->file_size ? "it is no PNG file" : "the file is empty");
-    for (size_t at = 8;; at += read_big(picture->file + at) + CHUNK_FRAME) {
+    for (size_t at = 8, next;; at = next) {
         uint8_t *chunk = picture->file + at;
         if (!check_chunk(chunk, picture->file_size - at, reason)) return false;
         hide_long_text(chunk, &packed);
+        next = at + read_big(chunk) + CHUNK_FRAME;
         if (chunk_is(chunk, "IDAT")) {
             if (data->last && data->last != at)
                 return fail(reason, "it is damaged: its pixels are in pieces");
-            if (!data->last) data->first = at;
-            data->bytes += read_big(chunk);
-            data->last = at + read_big(chunk) + CHUNK_FRAME;
+            join_data(data, picture->file, at);
         } else if (chunk_is(chunk, "IEND")) {
             data->end = at;
-            return data->last || fail(reason, "it has no pixels");
+            return finish_data(picture, reason);
         }
     }
 }
@@ -177,6 +198,19 @@ static void reader_end(struct reader *r) { png_destroy_read_struct(&r->png, &r->
 
 /* ---- The header ---- */
 
+static void take_palette(struct monge_picture *picture, struct reader *r) {
+    png_colorp colors = NULL;
+    png_bytep alphas = NULL;
+    int count = 0, alpha_count = 0;
+    png_get_PLTE(r->png, r->info, &colors, &count);
+    png_get_tRNS(r->png, r->info, &alphas, &alpha_count, NULL);
+    for (int i = 0; i < 256; i++) {
+        const png_color color = i < count ? colors[i] : (png_color){0, 0, 0}; /* as libpng has it */
+        const uint8_t alpha = i < alpha_count ? alphas[i] : 255;
+        memcpy(picture->palette[i], (uint8_t[4]){color.red, color.green, color.blue, alpha}, 4);
+    }
+}
+
 static bool take_size(struct monge_picture *picture, struct reader *r) {
     const int type = png_get_color_type(r->png, r->info), bits = png_get_bit_depth(r->png, r->info);
     const bool keyed = png_get_valid(r->png, r->info, PNG_INFO_tRNS);
@@ -185,8 +219,10 @@ static bool take_size(struct monge_picture *picture, struct reader *r) {
     picture->height = png_get_image_height(r->png, r->info);
     picture->bits = bits == 16 ? 16 : 8;
     picture->channels = (type & PNG_COLOR_MASK_COLOR ? 3u : 1u) + alpha;
-    picture->plain = bits >= 8 && type != PNG_COLOR_TYPE_PALETTE && !keyed &&
-                     png_get_interlace_type(r->png, r->info) == PNG_INTERLACE_NONE;
+    const bool whole = bits >= 8 && png_get_interlace_type(r->png, r->info) == PNG_INTERLACE_NONE;
+    picture->indexed = whole && type == PNG_COLOR_TYPE_PALETTE;
+    picture->plain = whole && type != PNG_COLOR_TYPE_PALETTE && !keyed;
+    if (picture->indexed) take_palette(picture, r);
     if ((uint64_t)picture->width * picture->height <= MONGE_MAX_PIXELS) return true;
     return fail(r->reason, "it is too large: %u x %u pixels", picture->width, picture->height);
 }
@@ -317,13 +353,14 @@ static bool has_data(const struct monge_picture *picture) {
     return (uint64_t)picture->width * picture->height / 8 / DEFLATE_MAX_RATIO <= picture->data.bytes;
 }
 
-bool picture_decode(struct monge_picture *picture, char reason[PICTURE_REASON_SIZE]) {
-    if (picture->memory) return true;
-    if (!has_data(picture)) return fail(reason, "it is damaged: it has too few pixels");
-    picture_decode_plain(picture);
-    if (picture->memory) return true;
-    struct stretch all = {picture->file, picture->file + picture->file_size};
-    struct reader r = {.stretch = &all, .last = &all + 1, .reason = reason};
+static bool decode_by_libpng(struct monge_picture *picture, char reason[PICTURE_REASON_SIZE]) {
+    static const uint8_t any_sum[4];
+    const uint8_t *file = picture->file;
+    const struct picture_data *data = &picture->data;
+    struct stretch stretches[] = {{file, file + data->first + 8 + data->bytes},
+                                  {any_sum, any_sum + sizeof any_sum},
+                                  {file + data->last, file + picture->file_size}};
+    struct reader r = {.stretch = stretches, .last = stretches + 3, .reason = reason};
     picture->stride = picture->width * picture_pixel_size(picture);
     picture->rows = picture->memory = calloc(picture->height, picture->stride);
     if (!picture->memory) return fail(reason, "%s", strerror(ENOMEM));
@@ -333,4 +370,11 @@ bool picture_decode(struct monge_picture *picture, char reason[PICTURE_REASON_SI
     free(picture->memory);
     picture->memory = NULL;
     return false;
+}
+
+bool picture_decode(struct monge_picture *picture, char reason[PICTURE_REASON_SIZE]) {
+    if (picture->memory) return true;
+    if (!has_data(picture)) return fail(reason, "it is damaged: it has too few pixels");
+    picture_decode_plain(picture);
+    return picture->memory || decode_by_libpng(picture, reason);
 }

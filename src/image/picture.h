@@ -18,21 +18,24 @@ struct picture_text {
     char *key, *text; /* one piece of memory, of key */
 };
 
-/* Where the compressed pixels are in the file. */
+/* Where the compressed pixels are in `file`. The chunks that have them are joined there to one, the first, which has no
+ * check sum; behind it, up to `last`, is what was left over. */
 struct picture_data {
-    size_t first, last; /* of the IDAT chunks: where the first begins and the last ends */
+    size_t first, last; /* of the IDAT chunks: where the first begins and where the last ended */
     size_t end;         /* where IEND begins */
-    size_t bytes;       /* in all of them together */
+    size_t bytes;       /* of all of them together: from first + 8 on */
 };
 
 struct monge_picture {
-    char *name; /* of the file, for messages */
-    uint8_t *file;
+    char *name;    /* of the file, for messages */
+    uint8_t *file; /* but for `data` as it was read */
     size_t file_size;
     struct picture_data data;
     uint32_t width, height;
     unsigned bits, channels; /* as decoded: 8 or 16, 1 to 4 */
-    bool plain;              /* rows are in the file as they are decoded, but for compression and filters */
+    bool plain;              /* rows are in the file as they are decoded, but for compression and filters; */
+    bool indexed;            /* as numbers of one byte of colors in: */
+    uint8_t palette[256][4]; /* red, green, blue, alpha */
     struct color_space space;
     struct picture_text *texts;
     size_t text_count;
@@ -56,7 +59,7 @@ void picture_close(struct monge_picture *picture);
  * memory for them. */
 bool picture_decode(struct monge_picture *picture, char reason[PICTURE_REASON_SIZE]);
 
-/* The same for the rows of a plain picture, by libdeflate: several times as fast as libpng's way, and giving up
+/* The same for the rows of a plain or indexed picture, by libdeflate: several times as fast as libpng's way, and giving up
  * wherever something is out of the ordinary. picture->memory stays NULL when it fails. */
 void picture_decode_plain(struct monge_picture *picture);
 

@@ -2,9 +2,8 @@
 #include <libdeflate.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/mman.h>
-#include <unistd.h>
 
+#include "base/pages.h"
 #include "image/picture.h"
 
 enum { FILTER_NONE, FILTER_SUB, FILTER_UP, FILTER_AVERAGE, FILTER_PAETH };
@@ -169,60 +168,58 @@ static bool undo_filters(uint8_t *rows, size_t stride, uint32_t height, size_t s
 
 /* ---- The compressed data ---- */
 
-static uint32_t read_big(const uint8_t *at) {
-    return (uint32_t)at[0] << 24 | (uint32_t)at[1] << 16 | (uint32_t)at[2] << 8 | at[3];
-}
-
-/* What the IDAT chunks have, in one piece; *owned is to be freed. NULL: no memory. */
-static const uint8_t *join_data(const struct monge_picture *picture, uint8_t **owned) {
-    const uint8_t *chunk = picture->file + picture->data.first;
-    *owned = NULL;
-    if (read_big(chunk) == picture->data.bytes) return chunk + 8; /* the rest of them is empty */
-    uint8_t *to = *owned = malloc(picture->data.bytes);
-    while (to && chunk < picture->file + picture->data.last) {
-        const size_t size = read_big(chunk);
-        memcpy(to, chunk + 8, size);
-        to += size;
-        chunk += size + 12;
-    }
-    return *owned;
-}
-
 static bool inflate_rows(const struct monge_picture *picture, uint8_t *out, size_t size) {
-    uint8_t *owned;
     size_t made = 0;
-    const uint8_t *data = join_data(picture, &owned);
-    struct libdeflate_decompressor *inflater = data ? libdeflate_alloc_decompressor() : NULL;
+    const uint8_t *data = picture->file + picture->data.first + 8;
+    struct libdeflate_decompressor *inflater = libdeflate_alloc_decompressor();
     const bool good = inflater && libdeflate_zlib_decompress(inflater, data, picture->data.bytes, out, size,
                                                              &made) == LIBDEFLATE_SUCCESS;
     libdeflate_free_decompressor(inflater);
-    free(owned);
     return good && made == size;
 }
 
-/* All at once: one by one, as they are written to, the system takes as long as the inflater. */
-static void fetch_pages(uint8_t *memory, size_t size) {
-#ifdef MADV_POPULATE_WRITE
-    const size_t page = (size_t)sysconf(_SC_PAGESIZE), before = -(uintptr_t)memory % page;
-    if (size > (1 << 20)) madvise(memory + before, (size - before) / page * page, MADV_POPULATE_WRITE);
-#else
-    (void)memory, (void)size;
-#endif
+/* Rows of pixels of `step` bytes, each with the number of its filter before it. NULL: it did not work out. */
+static uint8_t *decode_rows(const struct monge_picture *picture, size_t step) {
+    const size_t stride = 1 + picture->width * step, size = stride * picture->height;
+    if (size / DEFLATE_MAX_RATIO > picture->data.bytes) return NULL;
+    uint8_t *rows = pages_alloc(size + ROOM);
+    if (rows && inflate_rows(picture, rows, size) && undo_filters(rows + 1, stride, picture->height, step))
+        return rows;
+    free(rows);
+    return NULL;
+}
+
+/* ---- Colors by number ---- */
+
+INLINE void look_up(const struct monge_picture *picture, const uint8_t *numbers, uint8_t *out, size_t step) {
+    for (uint32_t x = 0; x < picture->width; x++)
+        memcpy(out + x * step, picture->palette[numbers[x]], 4); /* what is too much is written over */
+}
+
+static void decode_indexed(struct monge_picture *picture) {
+    const size_t width = picture->width, stride = width * picture->channels;
+    uint8_t *numbers = decode_rows(picture, 1);
+    uint8_t *memory = numbers ? pages_alloc(stride * picture->height + ROOM) : NULL;
+    for (uint32_t y = 0; memory && y < picture->height; y++) {
+        const uint8_t *row = numbers + y * (width + 1) + 1;
+        if (picture->channels == 3)
+            look_up(picture, row, memory + y * stride, 3);
+        else
+            look_up(picture, row, memory + y * stride, 4);
+    }
+    free(numbers);
+    picture->memory = picture->rows = memory;
+    picture->stride = stride;
+}
+
+static void decode_plain(struct monge_picture *picture) {
+    const size_t step = picture_pixel_size(picture);
+    picture->memory = decode_rows(picture, step);
+    picture->rows = picture->memory + 1;
+    picture->stride = 1 + picture->width * step;
 }
 
 void picture_decode_plain(struct monge_picture *picture) {
-    const size_t step = picture_pixel_size(picture);
-    const size_t stride = 1 + picture->width * step; /* a row has the number of its filter before it */
-    const size_t size = stride * picture->height;
-    if (!picture->plain || size / DEFLATE_MAX_RATIO > picture->data.bytes) return;
-    uint8_t *memory = malloc(size + ROOM);
-    if (memory) fetch_pages(memory, size);
-    if (memory && inflate_rows(picture, memory, size) &&
-        undo_filters(memory + 1, stride, picture->height, step)) {
-        picture->memory = memory;
-        picture->rows = memory + 1;
-        picture->stride = stride;
-    } else {
-        free(memory);
-    }
+    if (picture->plain) decode_plain(picture);
+    if (picture->indexed) decode_indexed(picture);
 }

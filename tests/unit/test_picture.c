@@ -47,10 +47,10 @@ static void all_kinds_are_read(void **state) {
         {PNG_COLOR_TYPE_RGB_ALPHA, 8}, {PNG_COLOR_TYPE_GRAY_ALPHA, 16}, {PNG_COLOR_TYPE_RGB_ALPHA, 16},
     };
     for (size_t k = 0; k < COUNT(kinds); k++)
-        for (int more = 0; more < 4; more++) {
+        for (int more = 0; more < 8; more++) {
             const bool keyed = more & 1 && !(kinds[k].type & PNG_COLOR_MASK_ALPHA);
             check_sample(SAMPLE(37, 23, .type = kinds[k].type, .bits = kinds[k].bits, .interlaced = more & 2,
-                                .keyed = keyed));
+                                .keyed = keyed, .pieces = more & 4 ? 50 : 0));
         }
 }
 
@@ -175,15 +175,18 @@ static void changed_bytes_are_noticed(void **state) {
         }
 }
 
-/* A file made of chunks with right check sums, whatever is in them. */
-static void add_chunk(struct file *file, const char *type, const void *data, size_t size) {
-    uint8_t *at = file->byte + file->size;
+/* A chunk with the right check sum, whatever is in it; returns its bytes. */
+static size_t make_chunk(uint8_t *at, const char *type, const void *data, size_t size) {
     for (int i = 0; i < 4; i++) at[i] = (uint8_t)(size >> (24 - 8 * i));
     memcpy(at + 4, type, 4);
     if (size > 0) memcpy(at + 8, data, size);
     const uint32_t sum = libdeflate_crc32(0, at + 4, size + 4);
     for (int i = 0; i < 4; i++) at[8 + size + (size_t)i] = (uint8_t)(sum >> (24 - 8 * i));
-    file->size += size + 12;
+    return size + 12;
+}
+
+static void add_chunk(struct file *file, const char *type, const void *data, size_t size) {
+    file->size += make_chunk(file->byte + file->size, type, data, size);
 }
 
 static struct file begin_file(uint32_t width, uint32_t height, int type, int bits) {
@@ -224,6 +227,47 @@ static void rows_must_be_whole_and_of_known_filters(void **state) {
     assert_false(rows_are_good((const uint8_t[]){0, 1, 2, 3, 5, 5, 6, 7}, 8));
     assert_false(rows_are_good((const uint8_t[]){0, 1, 2, 3, 4, 5, 6}, 7));
     assert_true(rows_are_good((const uint8_t[]){0, 1, 2, 3, 4, 5, 6, 7, 0}, 9)); /* as libpng has it */
+}
+
+/* Whatever a stream is made of: a million stored blocks of no bytes, and then the pixel. */
+static void pixels_may_be_of_many_blocks(void **state) {
+    (void)state;
+    enum { BLOCKS = 2000000, SIZE = 2 + 5 * BLOCKS + 7 + 4 };
+    uint8_t *data = malloc(SIZE), *chunk = malloc(SIZE + 12);
+    assert_true(data && chunk);
+    memcpy(data, "\x78\x01", 2);
+    for (int i = 0; i < BLOCKS; i++) memcpy(data + 2 + 5 * i, "\0\0\0\xff\xff", 5);
+    memcpy(data + 2 + 5 * BLOCKS, "\1\2\0\xfd\xff\0\x70", 7); /* the last: a filter's number and a byte */
+    memcpy(data + SIZE - 4, "\0\x72\0\x71", 4);               /* Adler's sum */
+    struct file begin = begin_file(2, 1, PNG_COLOR_TYPE_GRAY, 4), end = {.size = 0};
+    add_chunk(&end, "IEND", NULL, 0);
+    FILE *stream = fopen("a.png", "wb");
+    fwrite(begin.byte, 1, begin.size, stream);
+    fwrite(chunk, 1, make_chunk(chunk, "IDAT", data, SIZE / 2), stream);
+    fwrite(chunk, 1, make_chunk(chunk, "IDAT", data + SIZE / 2, SIZE - SIZE / 2), stream);
+    fwrite(end.byte, 1, end.size, stream);
+    fclose(stream);
+    assert_true(is_good("a.png"));
+    free(data);
+    free(chunk);
+}
+
+static void colors_beyond_the_palette_are_black(void **state) {
+    (void)state;
+    uint8_t data[100];
+    struct file file = begin_file(4, 1, PNG_COLOR_TYPE_PALETTE, 8);
+    add_chunk(&file, "PLTE", "\1\2\3\4\5\6", 6);
+    add_chunk(&file, "tRNS", "\7", 1);
+    add_chunk(&file, "IDAT", data, compress_bytes((const uint8_t[]){0, 0, 1, 2, 255}, 5, data, sizeof data));
+    add_chunk(&file, "IEND", NULL, 0);
+    save_file("a.png", file.byte, file.size);
+    struct monge_diagnostics *diag = monge_diagnostics_new();
+    struct monge_picture *picture = read_good("a.png");
+    assert_true(monge_picture_decode(picture, diag));
+    static const uint8_t expected[] = {1, 2, 3, 7, 4, 5, 6, 255, 0, 0, 0, 255, 0, 0, 0, 255};
+    assert_memory_equal(monge_picture_row(picture, 0), expected, sizeof expected);
+    monge_picture_free(picture);
+    monge_diagnostics_free(diag);
 }
 
 static void long_compressed_texts_are_left_out(void **state) {
@@ -310,6 +354,8 @@ int main(void) {
         cmocka_unit_test_setup_teardown(cut_off_files_are_refused, enter_folder, leave_folder),
         cmocka_unit_test_setup_teardown(changed_bytes_are_noticed, enter_folder, leave_folder),
         cmocka_unit_test_setup_teardown(rows_must_be_whole_and_of_known_filters, enter_folder, leave_folder),
+        cmocka_unit_test_setup_teardown(pixels_may_be_of_many_blocks, enter_folder, leave_folder),
+        cmocka_unit_test_setup_teardown(colors_beyond_the_palette_are_black, enter_folder, leave_folder),
         cmocka_unit_test_setup_teardown(long_compressed_texts_are_left_out, enter_folder, leave_folder),
         cmocka_unit_test_setup_teardown(chunks_must_be_in_order, enter_folder, leave_folder),
         cmocka_unit_test_setup_teardown(sizes_out_of_reach_are_refused, enter_folder, leave_folder),
