@@ -7,6 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "folder.h"
 #include "monge.h"
 #include "near.h"
 
@@ -82,22 +83,6 @@ static inline void write_sample(const char *path, const struct sample *given) {
     png_destroy_write_struct(&png, &info);
     fclose(file);
     free(row);
-}
-
-/* ---- A folder of its own for each test ---- */
-
-static inline int enter_folder(void **state) {
-    (void)state;
-    char folder[] = "/tmp/monge-picture.XXXXXX";
-    return mkdtemp(folder) && chdir(folder) == 0 ? 0 : -1;
-}
-
-static inline int leave_folder(void **state) {
-    (void)state;
-    char folder[PATH_MAX], command[PATH_MAX + 16];
-    if (!getcwd(folder, sizeof folder) || chdir("/") != 0) return -1;
-    snprintf(command, sizeof command, "rm -rf '%s'", folder);
-    return system(command);
 }
 
 /* A picture that can be read. */

@@ -2,6 +2,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "folder.h"
 #include "image/changes.h"
 #include "image/encode.h"
 #include "near.h"
@@ -300,20 +301,6 @@ static void test_refused(void **state) {
 }
 
 /* ---- From files ---- */
-
-static int enter_folder(void **state) {
-    char *folder = strdup("/tmp/monge-changes-XXXXXX");
-    *state = folder;
-    return mkdtemp(folder) && chdir(folder) == 0 ? 0 : -1;
-}
-
-static int leave_folder(void **state) {
-    char command[100];
-    snprintf(command, sizeof command, "rm -r %s", (char *)*state);
-    const int status = chdir("/") || system(command);
-    free(*state);
-    return status;
-}
 
 static void write_files(const struct rendered *r, const char *picture, struct monge_diagnostics *diag) {
     assert_true(monge_film_write_png(r->film, picture, diag));

@@ -4,22 +4,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "folder.h"
 #include "lang/file.h"
 #include "near.h"
-
-static char folder[] = "/tmp/monge-file.XXXXXX";
-
-static int enter_folder(void **state) {
-    (void)state;
-    return mkdtemp(folder) && chdir(folder) == 0 && mkdir("folder", 0777) == 0 ? 0 : -1;
-}
-
-static int leave_folder(void **state) {
-    (void)state;
-    char command[100];
-    snprintf(command, sizeof command, "rm -rf %s", folder);
-    return chdir("/") == 0 ? system(command) : -1;
-}
 
 static void write_file(const char *path, const char *bytes, size_t size) {
     FILE *out = fopen(path, "wb");
@@ -135,6 +122,10 @@ static void check_failure(void **state) {
     diag_free(&diag);
 }
 
+static int enter_with_folder(void **state) {
+    return enter_folder(state) || mkdir("folder", 0777) != 0 ? -1 : 0;
+}
+
 int main(void) {
     struct CMUnitTest tests[COUNT(rows) + COUNT(failures) + 1];
     size_t n = 0;
@@ -143,5 +134,5 @@ int main(void) {
     for (size_t i = 0; i < COUNT(failures); i++)
         tests[n++] = (struct CMUnitTest){failures[i].want, check_failure, NULL, NULL, &failures[i]};
     tests[n++] = (struct CMUnitTest)cmocka_unit_test(standard_input_in_many_pieces);
-    return cmocka_run_group_tests_name("file", tests, enter_folder, leave_folder);
+    return cmocka_run_group_tests_name("file", tests, enter_with_folder, leave_folder);
 }

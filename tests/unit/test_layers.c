@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "folder.h"
 #include "image/layer_table.h"
 #include "image/pfm.h"
 #include "monge.h"
@@ -251,20 +252,6 @@ static void test_regions(void **state) {
 }
 
 /* ---- Files ---- */
-
-static int enter_folder(void **state) {
-    char *folder = strdup("/tmp/monge-layers-XXXXXX");
-    *state = folder;
-    return mkdtemp(folder) && chdir(folder) == 0 ? 0 : -1;
-}
-
-static int leave_folder(void **state) {
-    char command[100];
-    snprintf(command, sizeof command, "rm -r %s", (char *)*state);
-    const int status = chdir("/") || system(command);
-    free(*state);
-    return status;
-}
 
 static void write_all(const struct monge_layers *layers, const char *picture) {
     struct monge_diagnostics *diag = monge_diagnostics_new();

@@ -19,24 +19,9 @@
 #include <cmocka.h>
 #include <png.h>
 
+#include "folder.h"
 #include "image/encode.h"
 #include "image/png.h"
-
-/* ---- A folder of its own for each test ---- */
-
-static int enter_folder(void **state) {
-    (void)state;
-    char folder[] = "/tmp/monge-png.XXXXXX";
-    return mkdtemp(folder) && chdir(folder) == 0 ? 0 : -1;
-}
-
-static int leave_folder(void **state) {
-    (void)state;
-    char folder[PATH_MAX], command[PATH_MAX + 16];
-    if (!getcwd(folder, sizeof folder) || chdir("/") != 0) return -1;
-    snprintf(command, sizeof command, "rm -rf '%s'", folder);
-    return system(command);
-}
 
 static int count_entries(void) {
     int count = 0;

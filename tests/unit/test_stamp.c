@@ -8,22 +8,9 @@
 #include <png.h>
 
 #include "base/hash.h"
+#include "folder.h"
 #include "monge.h"
 #include "near.h"
-
-static int enter_folder(void **state) {
-    (void)state;
-    char folder[] = "/tmp/monge-stamp.XXXXXX";
-    return mkdtemp(folder) && chdir(folder) == 0 ? 0 : -1;
-}
-
-static int leave_folder(void **state) {
-    (void)state;
-    char folder[PATH_MAX], command[PATH_MAX + 16];
-    if (!getcwd(folder, sizeof folder) || chdir("/") != 0) return -1;
-    snprintf(command, sizeof command, "rm -rf '%s'", folder);
-    return system(command);
-}
 
 static void write_text(const char *path, const char *text) {
     FILE *file = fopen(path, "wb");
