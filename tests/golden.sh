@@ -256,6 +256,22 @@ exits 2 test s/one.yaml one.yaml --golden g; err_has 's/one.yaml and one.yaml wo
 exits 0 test s s/one.yaml --golden g; out_has '3 goldens: 3 same'
 rm one.yaml
 
+# Many orphans among what is there.
+fresh 'kind: hash'
+exits 0 test s/one.yaml s/two.yaml --golden g --update-only-failed -q
+line=$(grep '^one ' g/golden.lock); line=${line#one}
+seq -f "a%04g$line" 3000 >>g/golden.lock; seq -f "s%04g$line" 3000 >>g/golden.lock
+exits 1 test s --golden g -q; out_has '6003 goldens: 2 same, 1 new, 6000 orphan'
+exits 0 accept 'a*' 'in/*' --golden g --prune -q
+ok 'the new line is at its place' sh -c 'grep -v "^#" g/golden.lock | LC_ALL=C sort -c'; exits 1 test s --golden g -q; out_has '3003 goldens: 3 same, 3000 orphan'
+exits 0 accept --golden g --prune; out_has '0 taken, 3000 removed'; exits 0 test s --golden g -q
+ok 'the lines that are left' [ "$(grep -o '^[^# ]*' g/golden.lock | tr '\n' ,)" = in/a%20b%25,one,two, ]
+# What a frame makes may be called as another scene.
+printf 'rules: [{scenes: turn, options: --frames all}]\n' >g/golden.yaml
+printf 'image: {size: [20, 10], samples: 1}\nanimation: {frames: 3}\nscene: [{sphere: {}}]\n' >s/turn.yaml
+cp s/one.yaml s/turn-0002.yaml
+exits 2 test s --golden g -q; err_has 's/turn.yaml and s/turn-0002.yaml have the same golden, turn-0002'
+
 # ---- Tolerances ----
 
 fresh

@@ -21,6 +21,8 @@ struct acceptance {
     struct golden_settings settings;
     struct golden_lock lock;
     struct golden_results results;
+    const char **scenes; /* owned: names of the scenes of the run, sorted */
+    size_t scene_count;
     size_t taken, removed, refused;
     bool trouble;
 };
@@ -119,12 +121,21 @@ static void take_case(struct acceptance *a, struct golden_case *c) {
     }
 }
 
+static int compare_names(const void *a, const void *b) {
+    return strcmp(*(const char *const *)a, *(const char *const *)b);
+}
+
+static bool name_scenes(struct acceptance *a) {
+    a->scenes = calloc(a->results.count + 1, sizeof *a->scenes);
+    if (!a->scenes) say_error("out of memory");
+    for (size_t i = 0; a->scenes && i < a->results.count; i++)
+        if (a->results.cases[i].scene_name) a->scenes[a->scene_count++] = a->results.cases[i].scene_name;
+    if (a->scenes) qsort(a->scenes, a->scene_count, sizeof *a->scenes, compare_names);
+    return a->scenes;
+}
+
 static bool was_in_run(const struct acceptance *a, const char *scene) {
-    for (size_t i = 0; i < a->results.count; i++) {
-        const char *name = a->results.cases[i].scene_name;
-        if (name && strcmp(name, scene) == 0) return true;
-    }
-    return false;
+    return bsearch(&scene, a->scenes, a->scene_count, sizeof scene, compare_names);
 }
 
 static bool is_below_root(const struct acceptance *a, const char *scene) {
@@ -233,12 +244,13 @@ static bool begin(struct acceptance *a) {
     golden_hold(a->folder);
     return limits_read(a->args, &a->loader.limits) &&
            golden_settings_read(&a->settings, a->folder, NULL, &a->loader) &&
-           golden_lock_read(&a->lock, a->folder) && read_run(a) && check_globs(a);
+           golden_lock_read(&a->lock, a->folder) && read_run(a) && name_scenes(a) && check_globs(a);
 }
 
 enum status accept_command(const struct arguments *args) {
     struct acceptance a = {.args = args};
     const enum status status = begin(&a) ? settle(&a) : STATUS_TROUBLE;
+    free(a.scenes);
     golden_results_free(&a.results);
     golden_lock_free(&a.lock);
     golden_settings_free(&a.settings);

@@ -14,6 +14,7 @@
 
 struct golden_line {
     char *name;                /* owned */
+    bool gone;                 /* removed: it is not written any more */
     struct golden_stamp stamp; /* its options "" where there are none */
 };
 

@@ -203,16 +203,28 @@ static bool gather(struct test *test) {
     return cases;
 }
 
+static int compare_cases(const void *a, const void *b) {
+    const struct golden_case *p = *(const struct golden_case *const *)a,
+                             *q = *(const struct golden_case *const *)b;
+    const int order = strcmp(p->name, q->name);
+    return order ? order : p < q ? -1 : p > q;
+}
+
 /* Names that frames and parameters make may be those of other scenes. */
-static bool check_names(const struct golden_results *results) {
-    for (size_t i = 0; i < results->count; i++)
-        for (size_t k = 0; k < i; k++) {
-            if (strcmp(results->cases[i].name, results->cases[k].name) != 0) continue;
-            say_error("%s and %s have the same golden, %s", results->cases[k].scene, results->cases[i].scene,
-                      results->cases[i].name);
-            return false;
-        }
-    return true;
+static bool check_names(const struct golden_case *cases, size_t count) {
+    const struct golden_case **sorted = calloc(count + 1, sizeof *sorted);
+    bool good = sorted != NULL;
+    if (!good) say_error("out of memory");
+    for (size_t i = 0; good && i < count; i++) sorted[i] = &cases[i];
+    if (good && count > 1) qsort(sorted, count, sizeof *sorted, compare_cases);
+    for (size_t i = 1; good && i < count; i++) {
+        good = strcmp(sorted[i - 1]->name, sorted[i]->name) != 0;
+        if (!good)
+            say_error("%s and %s have the same golden, %s", sorted[i - 1]->scene, sorted[i]->scene,
+                      sorted[i]->name);
+    }
+    free(sorted);
+    return good;
 }
 
 static bool take_new(struct test *test) {
@@ -279,7 +291,7 @@ static enum status run_test(struct test *test) {
         golden_tell(&test->teller, &test->results.cases[i]);
     test->results.seconds = clock_seconds() - test->begun;
     golden_tell_end(&test->teller, &test->results);
-    if (!check_names(&test->results)) return STATUS_TROUBLE;
+    if (!check_names(test->results.cases, first_orphan)) return STATUS_TROUBLE;
     interrupt_defer();
     bool good = !wants(test, OPTION_UPDATE_ONLY_FAILED) || take_new(test);
     good &= golden_files_write(&test->results, run->output, test->args.option);
