@@ -153,6 +153,44 @@ for kind in png hash both; do
     exits 0 accept --golden g; out_has '0 taken'
 done
 
+# ---- Goldens that others change between run and accept ----
+
+for kind in png hash both; do
+    fresh "kind: $kind"
+    scene s/one.yaml blue; exits 0 test s --golden g --update-only-failed -q; cp -r g theirs
+    scene s/one.yaml red; exits 0 test s --golden g --update-only-failed -q; cp -r g ours
+    scene s/one.yaml lime; exits 1 test s --golden g; says changed one
+    cp theirs/* g 2>/dev/null; sums g >before
+    exits 1 accept --golden g; err_has 'one is left as it is: its golden has changed since the run: `monge test` compares it anew'
+    out_has '0 taken, 1 left as they are'; ok 'what others have accepted stays' [ "$(sums g)" = "$(cat before)" ]
+    rm -f g/one.png; [ $kind = png ] || sed -i '/^one /d' g/golden.lock
+    exits 1 accept --golden g; err_has 'one is left as it is: its golden has changed since the run'
+    exits 1 test s --golden g; says new one; cp theirs/* g 2>/dev/null
+    exits 1 accept --golden g; err_has 'one is left as it is: its golden has changed since the run'
+    exits 1 test s --golden g; says changed one; exits 0 accept --golden g; out_has '1 taken'; sums g >before
+
+    # what is taken is taken once
+    exits 0 accept --golden g; out_has 'one is taken already'; out_has '0 taken, 1 done already'; out_lacks 'took one'
+    ok 'nothing has changed' [ "$(sums g)" = "$(cat before)" ]
+    scene s/one.yaml teal; exits 0 test s --golden g --update-only-failed -q
+    exits 0 accept --golden g; out_has 'one is taken already'
+    cp ours/* g 2>/dev/null; exits 1 accept --golden g; err_has 'one is left as it is: its golden has changed since the run'
+    rm s/two.yaml; exits 1 test s --golden g -q; exits 0 accept two --golden g --prune; out_has 'removed two'
+    exits 0 accept two --golden g --prune; out_has 'two is removed already'; out_lacks 'removed two'
+    rm -rf theirs ours
+done
+fresh 'kind: both'; exits 0 test s --golden g --update-only-failed -q; scene s/one.yaml lime
+exits 1 test s --golden g; says changed one; sed -i '/^one /s/text=..../text=0000/' g/golden.lock
+exits 1 accept --golden g; err_has 'one is left as it is: its golden has changed since the run' # its line alone
+# a golden whose passes are gone is not the one that was taken
+fresh 'rules: [{scenes: one, aov: true}]'; exits 1 test s --golden g -q; exits 0 accept --golden g -q
+rm g/one.depth.pfm; exits 1 accept --golden g; out_has 'two is taken already'; out_lacks 'one is taken'
+# during the run, too: a program of --old changes the line
+fresh 'kind: hash'; exits 0 test s --golden g --update-only-failed -q; scene s/one.yaml lime
+printf '#!/bin/sh\nsed -i "/^one /s/pixels=..../pixels=0000/" g/golden.lock\n' >old; chmod +x old
+exits 1 test s --golden g --old ./old --update-only-failed; err_has 'one is left as it is: its golden has changed during the run'
+out_has '0 of 1 new pictures are goldens now'; ok 'the line of others stays' grep -q '^one .*pixels=0000' g/golden.lock
+
 # ---- Missing goldens ----
 
 fresh 'kind: both'
@@ -534,7 +572,7 @@ for kind in png hash both; do
 done
 # what a link in the folder leads to stays as it is
 fresh; mkdir -p away; echo mine >away/victim; cp away/victim away/kept
-exits 1 test s --golden g -q; ln -s ../away/victim g/one.png; ln -s ../away g/in
+ln -s ../away/victim g/one.png; ln -s ../away g/in; exits 1 test s --golden g -q
 exits 2 accept --golden g; err_has 'g/one.png is a link: goldens are files in their folder'; err_has 'g/in is a link'
 ok 'nothing is written outside of the goldens' cmp away/victim away/kept
 ok 'and nothing is made there' [ "$(ls away)" = "$(printf 'kept\nvictim')" ]; there g/two.png

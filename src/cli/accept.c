@@ -23,7 +23,7 @@ struct acceptance {
     struct golden_results results;
     const char **scenes; /* owned: names of the scenes of the run, sorted */
     size_t scene_count;
-    size_t taken, removed, refused;
+    size_t taken, removed, refused, done; /* done: before, already */
     bool trouble;
 };
 
@@ -107,12 +107,21 @@ static void refuse(struct acceptance *a, const struct golden_case *c, const char
     a->refused++;
 }
 
+static void pass_by(struct acceptance *a, const struct golden_case *c, const char *what) {
+    a->done++;
+    if (!a->args->option[OPTION_QUIET].given) printf("%s is %s already\n", c->name, what);
+}
+
 static void take_case(struct acceptance *a, struct golden_case *c) {
     struct monge_diagnostics *diag = monge_diagnostics_new();
     const char *why = diag ? find_obstacle(a, c, diag) : "out of memory";
     monge_diagnostics_free(diag);
     if (why)
         refuse(a, c, why);
+    else if (golden_is_taken(a->folder, &a->lock, c))
+        pass_by(a, c, "taken");
+    else if (!golden_is_as_noted(a->folder, &a->lock, c))
+        refuse(a, c, "its golden has changed since the run: `monge test` compares it anew");
     else if (!golden_take(a->folder, &a->lock, c))
         a->trouble = true;
     else {
@@ -164,7 +173,9 @@ static bool scene_is_back(const struct acceptance *a, const char *name) {
 static void remove_orphan(struct acceptance *a, struct golden_case *c) {
     free(c->golden_path);
     c->golden_path = c->kind == MONGE_GOLDEN_HASH ? NULL : golden_path(a->folder, c->name, ".png");
-    if (scene_is_back(a, c->name))
+    if (!golden_lock_find(&a->lock, c->name) && !(c->golden_path && golden_is_file(c->golden_path)))
+        pass_by(a, c, "removed");
+    else if (scene_is_back(a, c->name))
         refuse(a, c, "its scene is there again");
     else if (!golden_forget(a->folder, &a->lock, c))
         a->trouble = true;
@@ -175,7 +186,7 @@ static void remove_orphan(struct acceptance *a, struct golden_case *c) {
 }
 
 static void settle_case(struct acceptance *a, struct golden_case *c) {
-    if (c->taken || !is_wanted(a, c->name)) return;
+    if (!is_wanted(a, c->name)) return;
     if (c->status == GOLDEN_ORPHAN && a->args->option[OPTION_PRUNE].given) remove_orphan(a, c);
     if (golden_can_take(c) && c->scene && c->scene_name && c->rule_options) take_case(a, c);
 }
@@ -205,6 +216,7 @@ static enum status settle(struct acceptance *a) {
     if (!a->args->option[OPTION_QUIET].given) {
         printf("%zu taken", a->taken);
         if (a->removed > 0) printf(", %zu removed", a->removed);
+        if (a->done > 0) printf(", %zu done already", a->done);
         if (a->refused > 0) printf(", %zu left as they are", a->refused);
         printf("\n");
     }

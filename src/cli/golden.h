@@ -54,7 +54,8 @@ struct golden_case {
     bool trouble;  /* the system failed, not the scene */
     char *message; /* why it has its status, perhaps in many lines */
     struct golden_stamp now, old;      /* the scene's, and the golden's */
-    char golden_file[MONGE_HASH_SIZE]; /* of the file of a golden that is a picture */
+    char golden_file[MONGE_HASH_SIZE]; /* of the file of a golden that is a picture; "": there was none */
+    char *golden_line;                 /* of the golden in the lock; NULL: there was none */
     char *golden_path, *new_path;      /* of pictures that are there to be looked at */
     struct monge_tolerance tolerance;  /* its reason owned; NULL: none */
     char *tolerance_text;              /* as golden_tolerance_text has it */

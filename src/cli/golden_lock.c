@@ -114,9 +114,8 @@ static void print_hash(FILE *out, const char *key, const char *hash) {
     if (*hash) fprintf(out, " %s=%s", key, hash);
 }
 
-static void print_line(FILE *out, const struct golden_line *line) {
-    const struct golden_stamp *s = &line->stamp;
-    print_escaped(out, line->name, true);
+static void print_line(FILE *out, const char *name, const struct golden_stamp *s) {
+    print_escaped(out, name, true);
     fprintf(out, " %ux%ux%u", s->width, s->height, s->bits);
     print_hash(out, "pixels", s->pixels);
     print_hash(out, "scene", s->scene);
@@ -127,10 +126,9 @@ static void print_line(FILE *out, const struct golden_line *line) {
         fputs(" options=", out);
         print_escaped(out, s->options, false);
     }
-    putc('\n', out);
 }
 
-char *golden_lock_line(const char *name, const struct golden_stamp *stamp) {
+char *golden_lock_text(const char *name, const struct golden_stamp *stamp) {
     char *text = NULL;
     size_t size = 0;
     FILE *out = open_memstream(&text, &size);
@@ -138,10 +136,15 @@ char *golden_lock_line(const char *name, const struct golden_stamp *stamp) {
         say_error("out of memory");
         exit(STATUS_TROUBLE);
     }
-    print_escaped(out, name, true);
-    fprintf(out, " %ux%ux%u pixels=%s", stamp->width, stamp->height, stamp->bits, stamp->pixels);
+    print_line(out, name, stamp);
     fclose(out);
     return text;
+}
+
+char *golden_lock_line(const char *name, const struct golden_stamp *stamp) {
+    struct golden_stamp begin = {.width = stamp->width, .height = stamp->height, .bits = stamp->bits};
+    memcpy(begin.pixels, stamp->pixels, sizeof begin.pixels);
+    return golden_lock_text(name, &begin);
 }
 
 /* ---- The file ---- */
@@ -260,7 +263,10 @@ bool golden_lock_write(const struct golden_lock *lock) {
     FILE *out = open_memstream(&text.bytes, &text.size);
     if (out) fputs("# Goldens of `monge test`, a line each; `monge accept` writes them.\n", out);
     for (size_t i = 0; out && i < lock->count; i++)
-        if (!lock->lines[i].gone) print_line(out, &lock->lines[i]);
+        if (!lock->lines[i].gone) {
+            print_line(out, lock->lines[i].name, &lock->lines[i].stamp);
+            putc('\n', out);
+        }
     const bool good = out && fclose(out) == 0 && golden_write(lock->path, &text);
     free(text.bytes);
     return good;

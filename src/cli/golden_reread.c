@@ -63,6 +63,7 @@ static void read_case(const struct monge_value *value, struct golden_case *c) {
         .kind = (enum monge_golden_kind)index_of(GOLDEN_KIND, 3, kind, MONGE_GOLDEN_PNG),
         .status = (enum golden_status)index_of(GOLDEN_STATUS, GOLDEN_STATUSES, status, GOLDEN_BROKEN),
         .taken = read_flag(value, "taken"),
+        .golden_line = read_text(value, "golden_line"),
         .new_path = read_text(monge_value_get(value, "pictures"), "new"),
         .tolerance = {.reason = read_text(tolerance, "reason")},
         .tolerance_text = read_text(tolerance, "text"),
