@@ -591,6 +591,18 @@ echo '{"a": 1}' >here.json; mkdir other; cp here.json other/results.json
 exits 2 test s --golden g --output other; err_has 'other/results.json: no results of `monge test`'; there other/results.json; no_out
 exits 2 accept --golden g --output other; err_has 'no results of'
 exits 1 test s --golden g -q
+# a run that was cut off, or edited
+cp monge-test/results.json whole
+for damage in ':>' 'head -c 500 whole >' 'echo nonsense >' "head -c 99 /dev/zero >" 'sed "s/\"name\"/\"n\"/" whole >' 'sed "s/\"golden\": \"g\"/\"golden\": {}/" whole >'; do
+    eval "$damage monge-test/results.json"
+    exits 2 accept --golden g; err_has 'monge-test/results.json is damaged: `monge test` makes it anew'; missing g/one.png
+    exits 1 test s --golden g --changed; says new one
+    err_has 'monge: warning: monge-test/results.json is damaged: this run goes as if there had been none before, and replaces it'
+    exits 1 test s --golden g; no_err
+done
+# and what such a run has left is not taken for what belongs to a new picture
+echo depth >monge-test/new/one.depth.pfm; echo >monge-test/results.json
+exits 1 test s --golden g -q; missing monge-test/new/one.depth.pfm
 exits 2 accept --golden other; err_has 'the last run was with the goldens of g'
 sed 's/"name": "one"/"name": "..\/one"/' monge-test/results.json >x; cp x monge-test/results.json
 exits 2 accept --golden g; err_has '`../one` is no name of a golden'; missing one.png

@@ -233,7 +233,9 @@ static bool is_same_folder(const char *a, const char *b) {
 
 static bool read_run(struct acceptance *a) {
     char *path = golden_path(a->output, "results.json", "");
-    bool good = golden_results_read(&a->results, path);
+    const enum golden_reading reading = golden_results_read(&a->results, path);
+    bool good = reading == GOLDEN_READ;
+    if (reading == GOLDEN_DAMAGED) say_error("%s is damaged: `monge test` makes it anew", path);
     if (good && !a->results.folder) {
         say_error("%s is not there: `monge test` makes it, with --output %s", path, a->output);
         good = false;

@@ -106,12 +106,22 @@ bool golden_remove(const char *folder, const char *path) {
         return false;
     }
     char *copy = say_text("%s", path);
-    for (char *slash; (slash = strrchr(copy, '/')) && (size_t)(slash - copy) > strlen(folder);) {
+    for (char *slash; folder && (slash = strrchr(copy, '/')) && (size_t)(slash - copy) > strlen(folder);) {
         *slash = '\0';
         if (rmdir(copy) != 0) break; /* something else is in it */
     }
     free(copy);
     return true;
+}
+
+bool golden_remove_picture(const char *folder, const char *path) {
+    bool good = true;
+    for (enum monge_layer layer = 0; layer < MONGE_LAYERS; layer++) {
+        char *beside = aov_path(layer, path);
+        good &= golden_remove(folder, beside);
+        free(beside);
+    }
+    return golden_remove(folder, path) && good;
 }
 
 /* ---- What is there ---- */

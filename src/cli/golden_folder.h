@@ -27,9 +27,12 @@ bool golden_copy(const char *from, const char *to);
 /* Whether a path below the folder stays there: false, with the reason told, where a part of it is a symbolic link. */
 bool golden_check_inside(const char *folder, const char *path);
 
-/* Removes a file, and those folders above it up to `folder` that have become empty. False, with the reason told;
- * one that is not there is no trouble. */
+/* Removes a file, and those folders above it up to `folder` that have become empty; NULL: none, where others may be about to
+ * write into them. False, with the reason told; one that is not there is no trouble. */
 bool golden_remove(const char *folder, const char *path);
+
+/* The same of a picture and of the layers beside it. */
+bool golden_remove_picture(const char *folder, const char *path);
 
 /* The names of all pictures below a folder but for layers of others, sorted, up to a NULL; a folder that is not
  * there has none. To be freed, with its texts. */

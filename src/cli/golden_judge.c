@@ -208,8 +208,8 @@ static bool write_new(const struct golden_run *run, struct golden_case *c, const
     char *folder = golden_path(run->output, "new", "");
     c->new_path = golden_path(folder, c->name, ".png");
     free(folder);
-    const bool good =
-        diag && golden_make_folders(c->new_path) && monge_film_write_png(film, c->new_path, diag);
+    const bool good = diag && golden_remove_picture(NULL, c->new_path) && golden_make_folders(c->new_path) &&
+                      monge_film_write_png(film, c->new_path, diag);
     if (diag && !good) add_diagnostics(c, diag);
     monge_diagnostics_free(diag);
     if (good) return true;
@@ -277,8 +277,8 @@ static void set_old_command(const struct golden_run *run, struct golden_case *c)
             c->old.program);
 }
 
-static void drop_new(const struct golden_run *run, struct golden_case *c) {
-    golden_remove(run->output, c->new_path);
+static void drop_new(struct golden_case *c) {
+    golden_remove(NULL, c->new_path);
     free(c->new_path);
     c->new_path = NULL;
 }
@@ -296,7 +296,7 @@ void golden_judge(const struct golden_run *run, struct golden_case *c, const str
     else
         judge_picture(c);
     if (c->status == GOLDEN_SAME)
-        drop_new(run, c);
+        drop_new(c);
     else if (c->status == GOLDEN_CHANGED && hash && !c->golden_path)
         set_old_command(run, c);
 }

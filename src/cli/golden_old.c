@@ -54,7 +54,7 @@ bool golden_render_old(const struct golden_run *run, struct golden_case *c) {
     if (same)
         c->golden_path = path;
     else
-        unlink(path); /* not its folder, which others may be about to write into */
+        golden_remove(NULL, path);
     if (!same) free(path);
     free(folder);
     return same;

@@ -108,13 +108,6 @@ bool golden_take(const char *folder, struct golden_lock *lock, const struct gold
 }
 
 bool golden_forget(const char *folder, struct golden_lock *lock, const struct golden_case *c) {
-    bool good = true;
     golden_lock_remove(lock, c->name);
-    if (!c->golden_path) return true;
-    for (enum monge_layer layer = 0; good && layer < MONGE_LAYERS; layer++) {
-        char *path = aov_path(layer, c->golden_path);
-        good = golden_remove(folder, path);
-        free(path);
-    }
-    return good && golden_remove(folder, c->golden_path);
+    return !c->golden_path || golden_remove_picture(folder, c->golden_path);
 }

@@ -6,7 +6,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "cli/aov.h"
 #include "cli/batch.h"
 #include "cli/clock.h"
 #include "cli/golden_files.h"
@@ -143,12 +142,7 @@ static bool clear_folder(const struct golden_run *run) {
         if (!golden_name_is_safe(name)) continue;
         char *folder = golden_path(run->output, folders[i % 2], "");
         char *path = golden_path(folder, name, ".png");
-        good &= golden_remove(run->output, path);
-        for (enum monge_layer layer = 0; layer < MONGE_LAYERS; layer++) {
-            char *beside = aov_path(layer, path);
-            good &= golden_remove(run->output, beside);
-            free(beside);
-        }
+        good &= golden_remove_picture(run->output, path);
         free(path);
         free(folder);
     }
@@ -168,8 +162,12 @@ static bool make_folder(const char *path) {
 
 static bool prepare_folder(struct golden_run *run) {
     char *results = golden_path(run->output, "results.json", "");
-    const bool good = golden_results_read(&run->last, results) && make_folder(run->output) &&
-                      clear_folder(run) && golden_remove(run->output, results);
+    const enum golden_reading reading = golden_results_read(&run->last, results);
+    if (reading == GOLDEN_DAMAGED)
+        say_error("warning: %s is damaged: this run goes as if there had been none before, and replaces it",
+                  results);
+    const bool good = reading != GOLDEN_UNREAD && make_folder(run->output) && clear_folder(run) &&
+                      golden_remove(run->output, results);
     free(results);
     return good && make_folder(run->output); /* the last file that goes may take the folder with it */
 }
