@@ -241,6 +241,13 @@ lock 'x 1x1x8 pixels=%s options=\x01\n' $hash; err_has 'must be written as %XX'
 lock 'one 1x1x8 pixels=%s\n' $hash; err_has 'two lines for one'
 cp lock g/golden.lock; exits 0 test s --golden g
 
+printf 'a%%0Ab%%1B[31m%%7F 1x1x8 pixels=%s\n' $hash >>g/golden.lock; exits 1 test s --golden g
+says orphan 'a[?]b[?]\[31m[?]'; ok 'nothing but print' sh -c '! LC_ALL=C grep -q "[^[:print:]]" out'; exits 1 test s --golden g --tap -q; out_has 'a?b?[31m?'
+exits 0 accept --golden g --prune; ok 'accept tells it so too' grep -qx 'removed a?b?\[31m?' out
+ok 'and forgets it' cmp lock g/golden.lock
+printf 'image: {size: [20, 10], samples: 1}\nscene: [{sphere: {}}]\n' >"s/$(printf 'c\nd')".yaml
+exits 1 test s --golden g; says new 'c[?]d'; out_has 'monge-test/new/c?d.png'; exits 0 accept --golden g; ok 'a name is a line' grep -qx 'took c?d' out
+
 # ---- golden.yaml ----
 
 fresh 'rules: [{scenes: one, optoins: --samples 2}]'
@@ -502,6 +509,9 @@ cases = {(c.get("classname"), c.get("name")): c for c in suite}
 assert cases["in", "a b%"].find("failure").get("type") == "new"
 assert "sphre" in cases["scenes", 'b&<"d#'].find("error").text
 assert "monge render" in cases["scenes", "one"].find("failure").text
+error = cases["scenes", 'b&<"d#'].find("error")
+assert error.get("message").endswith("error[unknown-key]: an object has no key `sphre`"), error.get("message")
+assert error.text.startswith(error.get("message") + "\n") and "did you mean" in error.text, error.text
 PYTHON
 fi
 exits 0 accept one --golden g; exits 0 test s/one.yaml --golden g --changed --junit junit.xml --tap
@@ -562,6 +572,28 @@ for file in golden.lock golden.yaml; do
     exits 2 test s --golden g; err_has "g/$file is not a file"
     rm g/$file
 done
+# what is no file is told as that
+for way in 'mkdir' 'mkfifo' 'ln -s /dev/null' 'ln -s nowhere'; do
+    for kind in png both; do
+        fresh "kind: $kind"; $way g/one.png
+        exits 1 test s --golden g; says broken one; out_has 'g/one.png is not a file: it is in the way of the golden'
+        exits 1 test s --golden g --changed; says broken one; exits 0 accept one --golden g; out_has '0 taken'
+        ok 'it stays as it is' [ ! -f g/one.png ]; rm -rf g/one.png
+        exits 1 test s --golden g; says new one
+    done
+done
+fresh; mkfifo g/pipe.png; exits 1 test s --golden g; out_lacks orphan
+# goldens where the run writes
+fresh; exits 1 test s --golden g -q; exits 0 accept --golden g -q; sums g >before; ln -sfn g link
+for folder in g ./g g/ g/. g/../g link link/. "$work/g" s/../link; do
+    exits 2 test s --golden g --output "$folder"; err_has "--output $folder would write into the folder of the goldens, g"
+    exits 2 test s --golden "$folder" --output g; no_out
+done
+mkdir -p run/new run/old
+for folder in run/new run/old/ run; do exits 2 test s --golden $folder --output run; err_has 'would write into the folder of the goldens'; done
+ok 'the goldens are as before' [ "$(sums g)" = "$(cat before)" ]; rm -rf link run
+exits 2 test s --golden fresh --output new/../fresh; err_has 'would write into'; missing fresh; missing new
+exits 1 test s --golden fresh --output /fresh/../$work/./away/../fresh.2 -q; rm -rf fresh.2
 # passes that are asked for later
 for kind in png hash both; do
     fresh "kind: $kind"; exits 1 test s --golden g -q; exits 0 accept --golden g -q; exits 0 test s --golden g -q

@@ -109,7 +109,7 @@ static void refuse(struct acceptance *a, const struct golden_case *c, const char
 
 static void pass_by(struct acceptance *a, const struct golden_case *c, const char *what) {
     a->done++;
-    if (!a->args->option[OPTION_QUIET].given) printf("%s is %s already\n", c->name, what);
+    if (!a->args->option[OPTION_QUIET].given) say_line(stdout, "%s is %s already", c->name, what);
 }
 
 static void take_case(struct acceptance *a, struct golden_case *c) {
@@ -126,7 +126,7 @@ static void take_case(struct acceptance *a, struct golden_case *c) {
         a->trouble = true;
     else {
         a->taken++;
-        if (!a->args->option[OPTION_QUIET].given) printf("took %s\n", c->name);
+        if (!a->args->option[OPTION_QUIET].given) say_line(stdout, "took %s", c->name);
     }
 }
 
@@ -181,7 +181,7 @@ static void remove_orphan(struct acceptance *a, struct golden_case *c) {
         a->trouble = true;
     else {
         a->removed++;
-        if (!a->args->option[OPTION_QUIET].given) printf("removed %s\n", c->name);
+        if (!a->args->option[OPTION_QUIET].given) say_line(stdout, "removed %s", c->name);
     }
 }
 

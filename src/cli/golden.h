@@ -20,7 +20,7 @@ enum golden_status {
     GOLDEN_NEW,     /* there is no golden yet */
     GOLDEN_MISSING, /* there ought to be one: half of it is there, or it cannot be read */
     GOLDEN_ORPHAN,  /* a golden whose scene is gone */
-    GOLDEN_BROKEN,  /* there is no picture: the scene is wrong, or its options do not fit it */
+    GOLDEN_BROKEN, /* there is no picture: the scene is wrong, or its options do not fit it; or no place for a golden */
     GOLDEN_STATUSES
 };
 extern const char *const GOLDEN_STATUS[GOLDEN_STATUSES]; /* "same", ... */

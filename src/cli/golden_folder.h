@@ -11,13 +11,17 @@ bool golden_name_is_safe(const char *name);
 char *golden_path(const char *folder, const char *name, const char *extension);
 
 bool golden_is_file(const char *path);
+bool golden_is_there(const char *path); /* whatever it is: a folder, a link that leads nowhere */
 
-/* The same of what is there: a pipe or a device would be read without end. False: told. */
+/* The same as golden_is_file of what is there: a pipe or a device would be read without end. False: told. */
 bool golden_check_file(const char *path);
 
 /* Waits until no other process holds the folder, up to the end of this one: of two that read, change and write its lock the
  * later would undo what the earlier has done. Where there is no such folder, or no such thing as a lock, it goes on. */
 void golden_hold(const char *folder);
+
+/* The path from the root, without links and dots; of what is not there (yet), too. To be freed. */
+char *golden_real_path(const char *path);
 
 /* The file, complete or not at all, in folders that are made. False, with the reason told. */
 bool golden_write(const char *path, const struct monge_text *text);

@@ -88,6 +88,11 @@ static bool find_at(struct golden_case *c, const struct golden_line *line, const
                     const char *lock) {
     const bool file = golden_is_file(path), png = c->kind != MONGE_GOLDEN_HASH,
                text = c->kind != MONGE_GOLDEN_PNG;
+    if (png && !file && golden_is_there(path)) {
+        golden_add_message(c, "%s is not a file: it is in the way of the golden", path);
+        c->status = GOLDEN_BROKEN;
+        return false;
+    }
     if (line && text) copy_stamp(&line->stamp, &c->old);
     if (png && !file && line) {
         golden_add_message(c, "%s has a line for it, but %s is not there", lock, path);

@@ -160,6 +160,23 @@ static bool make_folder(const char *path) {
     return good;
 }
 
+/* The run writes into its folder, and removes what is in its new/ and old/: goldens must not be there. */
+static bool check_folders(const struct golden_run *run) {
+    static const char *const parts[] = {"", "new", "old"};
+    char *goldens = golden_real_path(run->folder);
+    bool good = true;
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
+        char *path = golden_path(run->output, parts[i], ""), *real = golden_real_path(path);
+        good &= strcmp(real, goldens) != 0;
+        free(real);
+        free(path);
+    }
+    if (!good)
+        say_error("--output %s would write into the folder of the goldens, %s", run->output, run->folder);
+    free(goldens);
+    return good;
+}
+
 static bool prepare_folder(struct golden_run *run) {
     char *results = golden_path(run->output, "results.json", "");
     const enum golden_reading reading = golden_results_read(&run->last, results);
@@ -333,8 +350,8 @@ static bool begin(struct test *test, const struct arguments *args) {
     return loader_begin(&run->loader, args) &&
            golden_settings_read(&run->settings, run->folder, option[OPTION_GOLDEN_KIND].given ? &kind : NULL,
                                 &run->loader) &&
-           find_scenes(test) && name_scenes(run) && golden_lock_read(&run->lock, run->folder) &&
-           prepare_folder(run);
+           check_folders(run) && find_scenes(test) && name_scenes(run) &&
+           golden_lock_read(&run->lock, run->folder) && prepare_folder(run);
 }
 
 static void end(struct test *test) {
