@@ -345,7 +345,27 @@ printf 'rules: [{scenes: one, options: --size 41x30, tolerance: {pixels: 100%%, 
 exits 1 test s --golden g; says changed one; out_has 'another size'
 rm -rf g; exits 0 test s --golden g --golden-kind hash --update-only-failed -q; scene s/one.yaml '"#fe0000"'
 echo 'tolerance: {flip: 0.1, reason: r}' >>s/one.yaml
-exits 1 test s --golden g --golden-kind hash; says changed one; out_has 'a golden that is a hash knows no tolerance'
+none='its tolerance counts for nothing: a golden that is a hash has no pixels to compare, which `kind: png` keeps'
+exits 1 test s --golden g --golden-kind hash; says changed one; out_has "$none"; out_lacks allowed; no_err
+exits 0 accept --golden g; exits 0 test s --golden g --golden-kind hash; says same one; out_has "$none"
+exits 0 test s --golden g --golden-kind hash --changed; says same one; out_has "$none"
+ok 'of one scene alone' [ "$(grep -cF "$none" out)" -eq 1 ]
+exits 0 test s --golden g --golden-kind both --update-only-failed; out_lacks 'counts for nothing'
+fresh 'kind: hash' 'rules:' '  - {scenes: one, tolerance: {flip: 0.1, reason: r}}' '  - {scenes: two, kind: both, tolerance: {flip: 0.1, reason: r}}'
+none='monge: warning: g/golden.yaml:3: the tolerance of this rule counts for nothing: goldens that are hashes have no pixels to compare, which `kind: png` keeps'
+exits 1 test s --golden g; err_has "$none"; ok 'of one rule alone' [ "$(wc -l <err)" -eq 1 ]
+exits 0 accept --golden g; no_err; exits 0 test s --golden g -q; err_has "$none"
+exits 0 test s --golden g -q --old "$monge"; no_err
+exits 1 test s --golden g -q --golden-kind png; no_err
+
+# ---- From pictures to hashes ----
+
+fresh; exits 0 test s --golden g --update-only-failed -q; echo 'kind: hash' >g/golden.yaml
+exits 1 test s --golden g; out_has '3 goldens: 3 new'; out_has 'g/in/a b%.png and 2 more pictures are not compared: their goldens are hashes'
+exits 0 accept --golden g; exits 0 test s --golden g; out_has 'and 2 more pictures are not compared'
+exits 0 test s --golden g -q; out_lacks 'not compared'
+exits 0 test s/one.yaml --golden g; out_has 'g/one.png is not compared: its golden is a hash'
+mkdir g/shown; mv g/*.png g/in g/shown; exits 0 test s --golden g; out_lacks 'not compared' # for something else
 
 # ---- Pictures of other kinds ----
 

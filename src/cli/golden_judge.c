@@ -200,13 +200,15 @@ static void judge_picture(struct golden_case *c) {
 
 static void judge_hash(const struct golden_run *run, struct golden_case *c) {
     c->status = GOLDEN_CHANGED;
-    if (c->tolerance_text)
-        golden_add_message(c, "a golden that is a hash knows no tolerance: keep its picture, by `kind: png`");
     if (!run->old_program || !golden_render_old(run, c) || !compare_files(c)) return;
     judge_difference(c);
 }
 
 /* ---- Judging ---- */
+
+bool golden_knows_tolerance(const struct golden_run *run, enum monge_golden_kind kind) {
+    return kind != MONGE_GOLDEN_HASH || run->old_program;
+}
 
 static bool write_new(const struct golden_run *run, struct golden_case *c, const struct monge_film *film) {
     struct monge_diagnostics *diag = monge_diagnostics_new();

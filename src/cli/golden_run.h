@@ -31,6 +31,9 @@ struct golden_run {
 /* Renders the pictures of a scene, and judges them: its cases. */
 void golden_scene_run(const struct golden_run *run, struct golden_scene *scene);
 
+/* Whether goldens of this kind have pixels, so that a difference can be within a tolerance: hashes have with --old alone. */
+bool golden_knows_tolerance(const struct golden_run *run, enum monge_golden_kind kind);
+
 /* What the golden of a case is, before its picture is rendered: c->old, c->golden_path, c->golden_file; and, where
  * there is none or half of it, the status. False: there is nothing to compare with. */
 bool golden_find(const struct golden_run *run, struct golden_case *c);

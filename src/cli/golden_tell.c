@@ -45,8 +45,8 @@ static void print_field(FILE *out, const char *key, const char *text, const char
 }
 
 void golden_print_details(FILE *out, const struct golden_case *c, const char *before) {
-    if (c->status == GOLDEN_SAME) return;
     if (c->message) print_lines(out, c->message, before);
+    if (c->status == GOLDEN_SAME) return;
     for (size_t i = 0; i < c->change_count; i++) print_lines(out, c->changes[i], before);
     char *differs = c->status == GOLDEN_CHANGED ? golden_causes_text(c) : NULL;
     if (differs) print_lines(out, differs, before);

@@ -131,6 +131,17 @@ static bool names_all(const struct arguments *args) {
     return true;
 }
 
+static void warn_of_tolerances(const struct golden_run *run) {
+    for (size_t i = 0; i < run->settings.count; i++) {
+        const struct monge_golden_rule *rule = run->settings.rules[i].rule;
+        if (rule->tolerance && !golden_knows_tolerance(run, rule->kind))
+            say_error("warning: %s:%u: the tolerance of this rule counts for nothing: goldens that are "
+                      "hashes have no "
+                      "pixels to compare, which `kind: png` keeps",
+                      run->settings.path, rule->line);
+    }
+}
+
 /* ---- The folder of the run ---- */
 
 /* What the run before has left. */
@@ -279,13 +290,33 @@ static enum status judge(const struct test *test) {
     return worst;
 }
 
+/* Pictures of goldens that have become hashes are no orphans: they may be there for something else. */
+static void mention_pictures(const struct test *test) {
+    char *first = NULL;
+    size_t count = 0;
+    for (size_t i = 0; i < test->results.count; i++) {
+        const struct golden_case *c = &test->results.cases[i];
+        char *path = golden_path(test->run.folder, c->name, ".png");
+        const bool useless = c->kind == MONGE_GOLDEN_HASH && c->scene && golden_is_file(path);
+        if (useless && count++ == 0)
+            first = path;
+        else
+            free(path);
+    }
+    if (count == 1) say_line(test->teller.out, "%s is not compared: its golden is a hash", first);
+    if (count > 1)
+        say_line(test->teller.out, "%s and %zu more pictures are not compared: their goldens are hashes",
+                 first, count - 1);
+    free(first);
+}
+
 static void hint(const struct test *test) {
     bool can = false, orphans = false;
     for (size_t i = 0; i < test->results.count; i++) {
         can |= golden_can_take(&test->results.cases[i]) && !test->results.cases[i].taken;
         orphans |= test->results.cases[i].status == GOLDEN_ORPHAN;
     }
-    if (!(can || orphans) || test->teller.tap || test->teller.quiet) return;
+    if (!(can || orphans)) return;
     const bool usual = !wants(test, OPTION_TEST_OUTPUT);
     fprintf(test->teller.out, "`monge accept --golden %s%s%s%s` %s\n", test->run.folder,
             usual ? "" : " --output ", usual ? "" : test->run.output, orphans ? " --prune" : "",
@@ -313,7 +344,10 @@ static enum status run_test(struct test *test) {
     bool good = !wants(test, OPTION_UPDATE_ONLY_FAILED) || take_new(test);
     good &= golden_files_write(&test->results, run->output, test->args.option);
     interrupt_settle();
-    hint(test);
+    if (!test->teller.tap && !test->teller.quiet) {
+        mention_pictures(test);
+        hint(test);
+    }
     return good ? judge(test) : STATUS_TROUBLE;
 }
 
@@ -347,10 +381,12 @@ static bool begin(struct test *test, const struct arguments *args) {
                                           .colors = isatty(fileno(out)) && !getenv("NO_COLOR")};
     test->results.folder = say_text("%s", run->folder);
     const enum monge_golden_kind kind = (enum monge_golden_kind)option[OPTION_GOLDEN_KIND].choice;
-    return loader_begin(&run->loader, args) &&
-           golden_settings_read(&run->settings, run->folder, option[OPTION_GOLDEN_KIND].given ? &kind : NULL,
-                                &run->loader) &&
-           check_folders(run) && find_scenes(test) && name_scenes(run) &&
+    if (!loader_begin(&run->loader, args) ||
+        !golden_settings_read(&run->settings, run->folder, option[OPTION_GOLDEN_KIND].given ? &kind : NULL,
+                              &run->loader))
+        return false;
+    warn_of_tolerances(run);
+    return check_folders(run) && find_scenes(test) && name_scenes(run) &&
            golden_lock_read(&run->lock, run->folder) && prepare_folder(run);
 }
 
