@@ -358,6 +358,21 @@ exits 0 accept --golden g; no_err; exits 0 test s --golden g -q; err_has "$none"
 exits 0 test s --golden g -q --old "$monge"; no_err
 exits 1 test s --golden g -q --golden-kind png; no_err
 
+# ---- Scenes of other names ----
+
+for kind in png hash both; do
+    fresh "kind: $kind"; cp s/two.yaml s/twin.yaml; exits 0 test s --golden g --update-only-failed -q
+    mv s/one.yaml s/uno.yaml; rm s/twin.yaml; scene s/three.yaml blue
+    exits 1 test s --golden g --junit junit.xml; says orphan one; says new uno; says new three; says orphan twin
+    out_has 'its picture is that of uno, which is new: was the scene renamed?'
+    ok 'of none but that' [ "$(grep -c renamed out)" -eq 1 ]
+    for file in junit.xml monge-test/results.json; do
+        ok "$file has it of both" [ "$(grep -o 'its picture is that of the orphan one: was the scene renamed?\|its picture is that of uno, which is new: was the scene renamed?' $file | sort -u | wc -l)" -eq 2 ]
+    done
+    [ $kind != png ] || { head -c 200 g/one.png >x; cp x g/one.png; exits 1 test s --golden g; says orphan one; out_lacks renamed; }
+    exits 0 accept --golden g --prune; exits 0 test s --golden g; out_has '4 goldens: 4 same'
+done
+
 # ---- From pictures to hashes ----
 
 fresh; exits 0 test s --golden g --update-only-failed -q; echo 'kind: hash' >g/golden.yaml

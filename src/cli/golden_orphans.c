@@ -125,12 +125,70 @@ static void add_pictures(const struct search *search) {
     golden_names_free(names);
 }
 
+/* ---- Scenes of other names ---- */
+
+static int compare_pixels(const void *a, const void *b) {
+    const struct golden_case *p = *(const struct golden_case *const *)a,
+                             *q = *(const struct golden_case *const *)b;
+    return strcmp(p->now.pixels, q->now.pixels);
+}
+
+/* Those without a golden, by their pixels. To be freed. */
+static struct golden_case **find_new(struct golden_results *results, size_t *count) {
+    struct golden_case **all = calloc(results->count + 1, sizeof *all);
+    if (!all) {
+        say_error("out of memory");
+        exit(STATUS_TROUBLE);
+    }
+    *count = 0;
+    for (size_t i = 0; i < results->count; i++)
+        if (results->cases[i].status == GOLDEN_NEW && *results->cases[i].now.pixels)
+            all[(*count)++] = &results->cases[i];
+    qsort(all, *count, sizeof *all, compare_pixels);
+    return all;
+}
+
+/* c->old.pixels: of its line, or of its picture; "" where that cannot be read. */
+static void hash_orphan(const struct golden_run *run, struct golden_case *c) {
+    const struct golden_line *line = golden_lock_find(&run->lock, c->name);
+    struct monge_diagnostics *diag = line ? NULL : monge_diagnostics_new();
+    struct monge_picture *picture = diag ? monge_picture_read(c->golden_path, diag) : NULL;
+    if (line)
+        memcpy(c->old.pixels, line->stamp.pixels, sizeof c->old.pixels);
+    else if (!picture || !monge_picture_hash(picture, diag, c->old.pixels))
+        *c->old.pixels = '\0';
+    monge_picture_free(picture);
+    monge_diagnostics_free(diag);
+}
+
+/* A new scene that looks as the golden of an orphan does may be that one's, under another name. */
+static void find_renamed(const struct golden_run *run, struct golden_results *results) {
+    size_t count = 0;
+    struct golden_case **all = find_new(results, &count);
+    for (size_t i = 0; count > 0 && i < results->count; i++) {
+        struct golden_case *orphan = &results->cases[i], looks = {0}, *key = &looks;
+        if (orphan->status != GOLDEN_ORPHAN) continue;
+        hash_orphan(run, orphan);
+        memcpy(looks.now.pixels, orphan->old.pixels, sizeof looks.now.pixels);
+        struct golden_case **found = bsearch(&key, all, count, sizeof *all, compare_pixels), *new;
+        if (!found) continue;
+        new = *found;
+        golden_add_message(orphan, "its picture is that of %s, which is new: was the scene renamed?",
+                           new->name);
+        if (!new->message)
+            golden_add_message(new, "its picture is that of the orphan %s: was the scene renamed?",
+                               orphan->name);
+    }
+    free(all);
+}
+
 void golden_find_orphans(const struct golden_run *run, bool all, struct golden_results *results) {
     struct search search = {.run = run, .results = results};
     if (!all && !run->settings.root) return;
     begin(&search);
     add_lines(&search);
     add_pictures(&search);
+    find_renamed(run, results);
     free(search.cases);
     free(search.scenes);
 }
