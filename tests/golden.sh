@@ -503,7 +503,14 @@ if have git; then
     PATH=$(dirname "$monge"):$PATH sh command >/dev/null 2>&1
     "$monge" render -q was.yaml -o was.png
     ok 'the command gives the old picture' sh -c 'grep -qa "$(grep -ao "monge:pixels.[0-9a-f]*" was.png | tail -c 32)" old.png'
-    rm -rf .git
+    # not where nothing can come of it
+    cp -r g gkept; sed -i 's/pixels=..../pixels=0000/' g/golden.lock
+    exits 1 test s --golden g; says changed two; out_lacks 'old: ' # no commit has the line
+    git commit -qam edited; exits 1 test s --golden g
+    ok 'nor for a scene that is the same' [ "$(grep -c 'old: ' out)" -eq 1 ]; says changed two
+    git rm -q --cached s/one.yaml; exits 1 test s --golden g; says changed one; out_lacks 'old: ' # no commit has the scene
+    rm -rf .git g; mv gkept g
+    exits 1 test s --golden g; says changed one; out_lacks 'old: '
 fi
 
 # ---- For programs ----
@@ -586,10 +593,15 @@ rm -rf goldens
 fresh 'kind: hash' 'rules:' '  - {scenes: one, options: "--samples 2 -D '"'"'a=1 + 2'"'"' -D b=3"}'
 sed -i '1i params: {a: 1, b: 2}' s/one.yaml
 exits 1 test s --golden g -q; exits 0 accept --golden g
-sed -i 's/pixels=......../pixels=00000000/' g/golden.lock
-exits 1 test s --golden g; out_has "--samples 2 -D 'a=1 + 2' -D b=3 -o old.png"
-sed -i 's/options=.*/options=--samples 2;touch hurt $(touch hurt) -D a=`touch hurt`/' g/golden.lock
-exits 1 test s --golden g; out_has "--samples '2;touch' hurt '\$(touch' 'hurt)' -D 'a=\`touch hurt\`' -o old.png"
+if have git; then
+    export GIT_CONFIG_GLOBAL=/dev/null GIT_AUTHOR_NAME=a GIT_AUTHOR_EMAIL=a GIT_COMMITTER_NAME=a GIT_COMMITTER_EMAIL=a
+    git init -q . && git add s g && git commit -qm first; echo '# more' >>s/one.yaml
+    sed -i 's/pixels=......../pixels=00000000/' g/golden.lock; git commit -qm second g
+    exits 1 test s --golden g; out_has "--samples 2 -D 'a=1 + 2' -D b=3 -o old.png"
+    sed -i 's/options=.*/options=--samples 2;touch hurt $(touch hurt) -D a=`touch hurt`/' g/golden.lock
+    exits 1 test s --golden g; out_has "--samples '2;touch' hurt '\$(touch' 'hurt)' -D 'a=\`touch hurt\`' -o old.png"
+    rm -rf .git
+fi
 fresh
 
 # ---- What goes wrong ----

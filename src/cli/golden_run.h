@@ -50,6 +50,9 @@ void golden_judge(const struct golden_run *run, struct golden_case *c, const str
  * there is none; the message of the case tells. */
 bool golden_render_old(const struct golden_run *run, struct golden_case *c);
 
+/* c->old_command, which makes the golden's picture of the commit that brought its line, where one is known that can. */
+void golden_set_old_command(const struct golden_run *run, struct golden_case *c);
+
 /* Writes the passes of the scene, as it is now, beside the case's new picture, their hashes into c->now; and tells what
  * has changed since the golden, where that has passes too, or hashes of them. What goes wrong is a message. */
 void golden_judge_layers(const struct golden_run *run, struct monge_scene *scene,
