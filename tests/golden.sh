@@ -570,9 +570,28 @@ exits 0 accept --golden goldens; step 0
 have python3 && python3 -c 'import yaml' 2>/dev/null && for file in "$tools"/*.yml; do
     ok "$file is YAML" python3 -c 'import sys, yaml; assert yaml.safe_load(open(sys.argv[1]))["jobs"]' "$file"
 done
+if have python3 && python3 -c 'import yaml' 2>/dev/null; then # as the server does: bash -e
+    python3 -c 'import sys, yaml; print(yaml.safe_load(open(sys.argv[1]))["jobs"]["goldens"]["steps"][0]["run"])' "$tools/goldens.yml" >step
+    asks() { last='the first step'; env "${@:2}" bash -e step >out 2>err; status=$?; ok "the first step is $1 with ${*:2}" [ $status -eq "$1" ]; }
+    asks 0 MONGE_REPOSITORY=a/b MONGE_VERSION=v1; no_out; no_err
+    asks 1 MONGE_REPOSITORY= MONGE_VERSION=; out_has '::error::variables of this repository are missing: MONGE_REPOSITORY MONGE_VERSION (Settings,'
+    asks 1 MONGE_REPOSITORY=a/b MONGE_VERSION=; out_has 'are missing: MONGE_VERSION ('
+fi
 if have git; then
     export GIT_CONFIG_GLOBAL=/dev/null GIT_AUTHOR_NAME=a GIT_AUTHOR_EMAIL=a GIT_COMMITTER_NAME=a GIT_COMMITTER_EMAIL=a
-    rm -rf monge-test monge-report
+    # the five steps of grammar/testing.md, as somebody would type them
+    mkdir -p steps/mine/scenes steps/bin steps/monge/tools; ln -s "$monge" steps/bin/monge; ln -s "$tools" steps/monge/tools/ci
+    scene steps/mine/scenes/one.yaml red
+    sed -n '/^## In continuous integration/,/^## /p' "$tools/../../grammar/testing.md" | awk '/^```sh/ { on = 1; next } /^```/ { on = 0 } on' >steps/all
+    mine() { last='the five steps'; (cd steps/mine && PATH=$work/steps/bin:$PATH "$@") >out 2>err; status=$?; }
+    mine git init -q .; mine sh ../all; says new one; out_has '1 taken'; ok 'the steps end well' [ $status -eq 0 ]
+    ok 'two commits' [ "$(git -C steps/mine log --oneline | wc -l)" -eq 2 ]; ok 'of all there is' [ -z "$(git -C steps/mine status --short)" ]
+    there steps/mine/.github/workflows/goldens.yml
+    mine monge test --golden goldens; says same one; ok 'and the scenes are the same' [ $status -eq 0 ]
+    scene steps/mine/scenes/one.yaml blue; mine git commit -qam x; ok 'the hook stops a change' [ $status -ne 0 ]
+    mine monge test --golden goldens; says changed one; out_has 'old: '
+    mine monge accept --golden goldens; mine git add goldens; mine git commit -qam x; ok 'which is meant' [ $status -eq 0 ]
+    rm -rf steps monge-test monge-report
     git init -q . && git add s goldens && cp "$tools/pre-commit" .git/hooks/pre-commit
     commit() { last='git commit'; MONGE=$monge git commit -qm "$2" >out 2>err; status=$?; ok "git commit is $1: $2" [ $status -eq "$1" ]; }
     commit 0 'goldens as they are'
