@@ -153,6 +153,44 @@ for kind in png hash both; do
     exits 0 accept --golden g; out_has '0 taken'
 done
 
+# ---- Goldens that others change between run and accept ----
+
+for kind in png hash both; do
+    fresh "kind: $kind"
+    scene s/one.yaml blue; exits 0 test s --golden g --update-only-failed -q; cp -r g theirs
+    scene s/one.yaml red; exits 0 test s --golden g --update-only-failed -q; cp -r g ours
+    scene s/one.yaml lime; exits 1 test s --golden g; says changed one
+    cp theirs/* g 2>/dev/null; sums g >before
+    exits 1 accept --golden g; err_has 'one is left as it is: its golden has changed since the run: `monge test` compares it anew'
+    out_has '0 taken, 1 left as they are'; ok 'what others have accepted stays' [ "$(sums g)" = "$(cat before)" ]
+    rm -f g/one.png; [ $kind = png ] || sed -i '/^one /d' g/golden.lock
+    exits 1 accept --golden g; err_has 'one is left as it is: its golden has changed since the run'
+    exits 1 test s --golden g; says new one; cp theirs/* g 2>/dev/null
+    exits 1 accept --golden g; err_has 'one is left as it is: its golden has changed since the run'
+    exits 1 test s --golden g; says changed one; exits 0 accept --golden g; out_has '1 taken'; sums g >before
+
+    # what is taken is taken once
+    exits 0 accept --golden g; out_has 'one is taken already'; out_has '0 taken, 1 done already'; out_lacks 'took one'
+    ok 'nothing has changed' [ "$(sums g)" = "$(cat before)" ]
+    scene s/one.yaml teal; exits 0 test s --golden g --update-only-failed -q
+    exits 0 accept --golden g; out_has 'one is taken already'
+    cp ours/* g 2>/dev/null; exits 1 accept --golden g; err_has 'one is left as it is: its golden has changed since the run'
+    rm s/two.yaml; exits 1 test s --golden g -q; exits 0 accept two --golden g --prune; out_has 'removed two'
+    exits 0 accept two --golden g --prune; out_has 'two is removed already'; out_lacks 'removed two'
+    rm -rf theirs ours
+done
+fresh 'kind: both'; exits 0 test s --golden g --update-only-failed -q; scene s/one.yaml lime
+exits 1 test s --golden g; says changed one; sed -i '/^one /s/text=..../text=0000/' g/golden.lock
+exits 1 accept --golden g; err_has 'one is left as it is: its golden has changed since the run' # its line alone
+# a golden whose passes are gone is not the one that was taken
+fresh 'rules: [{scenes: one, aov: true}]'; exits 1 test s --golden g -q; exits 0 accept --golden g -q
+rm g/one.depth.pfm; exits 1 accept --golden g; out_has 'two is taken already'; out_lacks 'one is taken'
+# during the run, too: a program of --old changes the line
+fresh 'kind: hash'; exits 0 test s --golden g --update-only-failed -q; scene s/one.yaml lime
+printf '#!/bin/sh\nsed -i "/^one /s/pixels=..../pixels=0000/" g/golden.lock\n' >old; chmod +x old
+exits 1 test s --golden g --old ./old --update-only-failed; err_has 'one is left as it is: its golden has changed during the run'
+out_has '0 of 1 new pictures are goldens now'; ok 'the line of others stays' grep -q '^one .*pixels=0000' g/golden.lock
+
 # ---- Missing goldens ----
 
 fresh 'kind: both'
@@ -202,6 +240,13 @@ lock 'x 1x1x8 pix\0els=%s\n' $hash; err_has 'NUL'
 lock 'x 1x1x8 pixels=%s options=\x01\n' $hash; err_has 'must be written as %XX'
 lock 'one 1x1x8 pixels=%s\n' $hash; err_has 'two lines for one'
 cp lock g/golden.lock; exits 0 test s --golden g
+
+printf 'a%%0Ab%%1B[31m%%7F 1x1x8 pixels=%s\n' $hash >>g/golden.lock; exits 1 test s --golden g
+says orphan 'a[?]b[?]\[31m[?]'; ok 'nothing but print' sh -c '! LC_ALL=C grep -q "[^[:print:]]" out'; exits 1 test s --golden g --tap -q; out_has 'a?b?[31m?'
+exits 0 accept --golden g --prune; ok 'accept tells it so too' grep -qx 'removed a?b?\[31m?' out
+ok 'and forgets it' cmp lock g/golden.lock
+printf 'image: {size: [20, 10], samples: 1}\nscene: [{sphere: {}}]\n' >"s/$(printf 'c\nd')".yaml
+exits 1 test s --golden g; says new 'c[?]d'; out_has 'monge-test/new/c?d.png'; exits 0 accept --golden g; ok 'a name is a line' grep -qx 'took c?d' out
 
 # ---- golden.yaml ----
 
@@ -256,6 +301,22 @@ exits 2 test s/one.yaml one.yaml --golden g; err_has 's/one.yaml and one.yaml wo
 exits 0 test s s/one.yaml --golden g; out_has '3 goldens: 3 same'
 rm one.yaml
 
+# Many orphans among what is there.
+fresh 'kind: hash'
+exits 0 test s/one.yaml s/two.yaml --golden g --update-only-failed -q
+line=$(grep '^one ' g/golden.lock); line=${line#one}
+seq -f "a%04g$line" 3000 >>g/golden.lock; seq -f "s%04g$line" 3000 >>g/golden.lock
+exits 1 test s --golden g -q; out_has '6003 goldens: 2 same, 1 new, 6000 orphan'
+exits 0 accept 'a*' 'in/*' --golden g --prune -q
+ok 'the new line is at its place' sh -c 'grep -v "^#" g/golden.lock | LC_ALL=C sort -c'; exits 1 test s --golden g -q; out_has '3003 goldens: 3 same, 3000 orphan'
+exits 0 accept --golden g --prune; out_has '0 taken, 3000 removed'; exits 0 test s --golden g -q
+ok 'the lines that are left' [ "$(grep -o '^[^# ]*' g/golden.lock | tr '\n' ,)" = in/a%20b%25,one,two, ]
+# What a frame makes may be called as another scene.
+printf 'rules: [{scenes: turn, options: --frames all}]\n' >g/golden.yaml
+printf 'image: {size: [20, 10], samples: 1}\nanimation: {frames: 3}\nscene: [{sphere: {}}]\n' >s/turn.yaml
+cp s/one.yaml s/turn-0002.yaml
+exits 2 test s --golden g -q; err_has 's/turn.yaml and s/turn-0002.yaml have the same golden, turn-0002'
+
 # ---- Tolerances ----
 
 fresh
@@ -284,7 +345,42 @@ printf 'rules: [{scenes: one, options: --size 41x30, tolerance: {pixels: 100%%, 
 exits 1 test s --golden g; says changed one; out_has 'another size'
 rm -rf g; exits 0 test s --golden g --golden-kind hash --update-only-failed -q; scene s/one.yaml '"#fe0000"'
 echo 'tolerance: {flip: 0.1, reason: r}' >>s/one.yaml
-exits 1 test s --golden g --golden-kind hash; says changed one; out_has 'a golden that is a hash knows no tolerance'
+none='its tolerance counts for nothing: a golden that is a hash has no pixels to compare, which `kind: png` keeps'
+exits 1 test s --golden g --golden-kind hash; says changed one; out_has "$none"; out_lacks allowed; no_err
+exits 0 accept --golden g; exits 0 test s --golden g --golden-kind hash; says same one; out_has "$none"
+exits 0 test s --golden g --golden-kind hash --changed; says same one; out_has "$none"
+ok 'of one scene alone' [ "$(grep -cF "$none" out)" -eq 1 ]
+exits 0 test s --golden g --golden-kind both --update-only-failed; out_lacks 'counts for nothing'
+fresh 'kind: hash' 'rules:' '  - {scenes: one, tolerance: {flip: 0.1, reason: r}}' '  - {scenes: two, kind: both, tolerance: {flip: 0.1, reason: r}}'
+none='monge: warning: g/golden.yaml:3: the tolerance of this rule counts for nothing: goldens that are hashes have no pixels to compare, which `kind: png` keeps'
+exits 1 test s --golden g; err_has "$none"; ok 'of one rule alone' [ "$(wc -l <err)" -eq 1 ]
+exits 0 accept --golden g; no_err; exits 0 test s --golden g -q; err_has "$none"
+exits 0 test s --golden g -q --old "$monge"; no_err
+exits 1 test s --golden g -q --golden-kind png; no_err
+
+# ---- Scenes of other names ----
+
+for kind in png hash both; do
+    fresh "kind: $kind"; cp s/two.yaml s/twin.yaml; exits 0 test s --golden g --update-only-failed -q
+    mv s/one.yaml s/uno.yaml; rm s/twin.yaml; scene s/three.yaml blue
+    exits 1 test s --golden g --junit junit.xml; says orphan one; says new uno; says new three; says orphan twin
+    out_has 'its picture is that of uno, which is new: was the scene renamed?'
+    ok 'of none but that' [ "$(grep -c renamed out)" -eq 1 ]
+    for file in junit.xml monge-test/results.json; do
+        ok "$file has it of both" [ "$(grep -o 'its picture is that of the orphan one: was the scene renamed?\|its picture is that of uno, which is new: was the scene renamed?' $file | sort -u | wc -l)" -eq 2 ]
+    done
+    [ $kind != png ] || { head -c 200 g/one.png >x; cp x g/one.png; exits 1 test s --golden g; says orphan one; out_lacks renamed; }
+    exits 0 accept --golden g --prune; exits 0 test s --golden g; out_has '4 goldens: 4 same'
+done
+
+# ---- From pictures to hashes ----
+
+fresh; exits 0 test s --golden g --update-only-failed -q; echo 'kind: hash' >g/golden.yaml
+exits 1 test s --golden g; out_has '3 goldens: 3 new'; out_has 'g/in/a b%.png and 2 more pictures are not compared: their goldens are hashes'
+exits 0 accept --golden g; exits 0 test s --golden g; out_has 'and 2 more pictures are not compared'
+exits 0 test s --golden g -q; out_lacks 'not compared'
+exits 0 test s/one.yaml --golden g; out_has 'g/one.png is not compared: its golden is a hash'
+mkdir g/shown; mv g/*.png g/in g/shown; exits 0 test s --golden g; out_lacks 'not compared' # for something else
 
 # ---- Pictures of other kinds ----
 
@@ -407,7 +503,14 @@ if have git; then
     PATH=$(dirname "$monge"):$PATH sh command >/dev/null 2>&1
     "$monge" render -q was.yaml -o was.png
     ok 'the command gives the old picture' sh -c 'grep -qa "$(grep -ao "monge:pixels.[0-9a-f]*" was.png | tail -c 32)" old.png'
-    rm -rf .git
+    # not where nothing can come of it
+    cp -r g gkept; sed -i 's/pixels=..../pixels=0000/' g/golden.lock
+    exits 1 test s --golden g; says changed two; out_lacks 'old: ' # no commit has the line
+    git commit -qam edited; exits 1 test s --golden g
+    ok 'nor for a scene that is the same' [ "$(grep -c 'old: ' out)" -eq 1 ]; says changed two
+    git rm -q --cached s/one.yaml; exits 1 test s --golden g; says changed one; out_lacks 'old: ' # no commit has the scene
+    rm -rf .git g; mv gkept g
+    exits 1 test s --golden g; says changed one; out_lacks 'old: '
 fi
 
 # ---- For programs ----
@@ -448,6 +551,9 @@ cases = {(c.get("classname"), c.get("name")): c for c in suite}
 assert cases["in", "a b%"].find("failure").get("type") == "new"
 assert "sphre" in cases["scenes", 'b&<"d#'].find("error").text
 assert "monge render" in cases["scenes", "one"].find("failure").text
+error = cases["scenes", 'b&<"d#'].find("error")
+assert error.get("message").endswith("error[unknown-key]: an object has no key `sphre`"), error.get("message")
+assert error.text.startswith(error.get("message") + "\n") and "did you mean" in error.text, error.text
 PYTHON
 fi
 exits 0 accept one --golden g; exits 0 test s/one.yaml --golden g --changed --junit junit.xml --tap
@@ -464,9 +570,28 @@ exits 0 accept --golden goldens; step 0
 have python3 && python3 -c 'import yaml' 2>/dev/null && for file in "$tools"/*.yml; do
     ok "$file is YAML" python3 -c 'import sys, yaml; assert yaml.safe_load(open(sys.argv[1]))["jobs"]' "$file"
 done
+if have python3 && python3 -c 'import yaml' 2>/dev/null; then # as the server does: bash -e
+    python3 -c 'import sys, yaml; print(yaml.safe_load(open(sys.argv[1]))["jobs"]["goldens"]["steps"][0]["run"])' "$tools/goldens.yml" >step
+    asks() { last='the first step'; env "${@:2}" bash -e step >out 2>err; status=$?; ok "the first step is $1 with ${*:2}" [ $status -eq "$1" ]; }
+    asks 0 MONGE_REPOSITORY=a/b MONGE_VERSION=v1; no_out; no_err
+    asks 1 MONGE_REPOSITORY= MONGE_VERSION=; out_has '::error::variables of this repository are missing: MONGE_REPOSITORY MONGE_VERSION (Settings,'
+    asks 1 MONGE_REPOSITORY=a/b MONGE_VERSION=; out_has 'are missing: MONGE_VERSION ('
+fi
 if have git; then
     export GIT_CONFIG_GLOBAL=/dev/null GIT_AUTHOR_NAME=a GIT_AUTHOR_EMAIL=a GIT_COMMITTER_NAME=a GIT_COMMITTER_EMAIL=a
-    rm -rf monge-test monge-report
+    # the five steps of grammar/testing.md, as somebody would type them
+    mkdir -p steps/mine/scenes steps/bin steps/monge/tools; ln -s "$monge" steps/bin/monge; ln -s "$tools" steps/monge/tools/ci
+    scene steps/mine/scenes/one.yaml red
+    sed -n '/^## In continuous integration/,/^## /p' "$tools/../../grammar/testing.md" | awk '/^```sh/ { on = 1; next } /^```/ { on = 0 } on' >steps/all
+    mine() { last='the five steps'; (cd steps/mine && PATH=$work/steps/bin:$PATH "$@") >out 2>err; status=$?; }
+    mine git init -q .; mine sh ../all; says new one; out_has '1 taken'; ok 'the steps end well' [ $status -eq 0 ]
+    ok 'two commits' [ "$(git -C steps/mine log --oneline | wc -l)" -eq 2 ]; ok 'of all there is' [ -z "$(git -C steps/mine status --short)" ]
+    there steps/mine/.github/workflows/goldens.yml
+    mine monge test --golden goldens; says same one; ok 'and the scenes are the same' [ $status -eq 0 ]
+    scene steps/mine/scenes/one.yaml blue; mine git commit -qam x; ok 'the hook stops a change' [ $status -ne 0 ]
+    mine monge test --golden goldens; says changed one; out_has 'old: '
+    mine monge accept --golden goldens; mine git add goldens; mine git commit -qam x; ok 'which is meant' [ $status -eq 0 ]
+    rm -rf steps monge-test monge-report
     git init -q . && git add s goldens && cp "$tools/pre-commit" .git/hooks/pre-commit
     commit() { last='git commit'; MONGE=$monge git commit -qm "$2" >out 2>err; status=$?; ok "git commit is $1: $2" [ $status -eq "$1" ]; }
     commit 0 'goldens as they are'
@@ -487,10 +612,15 @@ rm -rf goldens
 fresh 'kind: hash' 'rules:' '  - {scenes: one, options: "--samples 2 -D '"'"'a=1 + 2'"'"' -D b=3"}'
 sed -i '1i params: {a: 1, b: 2}' s/one.yaml
 exits 1 test s --golden g -q; exits 0 accept --golden g
-sed -i 's/pixels=......../pixels=00000000/' g/golden.lock
-exits 1 test s --golden g; out_has "--samples 2 -D 'a=1 + 2' -D b=3 -o old.png"
-sed -i 's/options=.*/options=--samples 2;touch hurt $(touch hurt) -D a=`touch hurt`/' g/golden.lock
-exits 1 test s --golden g; out_has "--samples '2;touch' hurt '\$(touch' 'hurt)' -D 'a=\`touch hurt\`' -o old.png"
+if have git; then
+    export GIT_CONFIG_GLOBAL=/dev/null GIT_AUTHOR_NAME=a GIT_AUTHOR_EMAIL=a GIT_COMMITTER_NAME=a GIT_COMMITTER_EMAIL=a
+    git init -q . && git add s g && git commit -qm first; echo '# more' >>s/one.yaml
+    sed -i 's/pixels=......../pixels=00000000/' g/golden.lock; git commit -qm second g
+    exits 1 test s --golden g; out_has "--samples 2 -D 'a=1 + 2' -D b=3 -o old.png"
+    sed -i 's/options=.*/options=--samples 2;touch hurt $(touch hurt) -D a=`touch hurt`/' g/golden.lock
+    exits 1 test s --golden g; out_has "--samples '2;touch' hurt '\$(touch' 'hurt)' -D 'a=\`touch hurt\`' -o old.png"
+    rm -rf .git
+fi
 fresh
 
 # ---- What goes wrong ----
@@ -508,6 +638,28 @@ for file in golden.lock golden.yaml; do
     exits 2 test s --golden g; err_has "g/$file is not a file"
     rm g/$file
 done
+# what is no file is told as that
+for way in 'mkdir' 'mkfifo' 'ln -s /dev/null' 'ln -s nowhere'; do
+    for kind in png both; do
+        fresh "kind: $kind"; $way g/one.png
+        exits 1 test s --golden g; says broken one; out_has 'g/one.png is not a file: it is in the way of the golden'
+        exits 1 test s --golden g --changed; says broken one; exits 0 accept one --golden g; out_has '0 taken'
+        ok 'it stays as it is' [ ! -f g/one.png ]; rm -rf g/one.png
+        exits 1 test s --golden g; says new one
+    done
+done
+fresh; mkfifo g/pipe.png; exits 1 test s --golden g; out_lacks orphan
+# goldens where the run writes
+fresh; exits 1 test s --golden g -q; exits 0 accept --golden g -q; sums g >before; ln -sfn g link
+for folder in g ./g g/ g/. g/../g link link/. "$work/g" s/../link; do
+    exits 2 test s --golden g --output "$folder"; err_has "--output $folder would write into the folder of the goldens, g"
+    exits 2 test s --golden "$folder" --output g; no_out
+done
+mkdir -p run/new run/old
+for folder in run/new run/old/ run; do exits 2 test s --golden $folder --output run; err_has 'would write into the folder of the goldens'; done
+ok 'the goldens are as before' [ "$(sums g)" = "$(cat before)" ]; rm -rf link run
+exits 2 test s --golden fresh --output new/../fresh; err_has 'would write into'; missing fresh; missing new
+exits 1 test s --golden fresh --output /fresh/../$work/./away/../fresh.2 -q; rm -rf fresh.2
 # passes that are asked for later
 for kind in png hash both; do
     fresh "kind: $kind"; exits 1 test s --golden g -q; exits 0 accept --golden g -q; exits 0 test s --golden g -q
@@ -518,7 +670,7 @@ for kind in png hash both; do
 done
 # what a link in the folder leads to stays as it is
 fresh; mkdir -p away; echo mine >away/victim; cp away/victim away/kept
-exits 1 test s --golden g -q; ln -s ../away/victim g/one.png; ln -s ../away g/in
+ln -s ../away/victim g/one.png; ln -s ../away g/in; exits 1 test s --golden g -q
 exits 2 accept --golden g; err_has 'g/one.png is a link: goldens are files in their folder'; err_has 'g/in is a link'
 ok 'nothing is written outside of the goldens' cmp away/victim away/kept
 ok 'and nothing is made there' [ "$(ls away)" = "$(printf 'kept\nvictim')" ]; there g/two.png
@@ -537,6 +689,18 @@ echo '{"a": 1}' >here.json; mkdir other; cp here.json other/results.json
 exits 2 test s --golden g --output other; err_has 'other/results.json: no results of `monge test`'; there other/results.json; no_out
 exits 2 accept --golden g --output other; err_has 'no results of'
 exits 1 test s --golden g -q
+# a run that was cut off, or edited
+cp monge-test/results.json whole
+for damage in ':>' 'head -c 500 whole >' 'echo nonsense >' "head -c 99 /dev/zero >" 'sed "s/\"name\"/\"n\"/" whole >' 'sed "s/\"golden\": \"g\"/\"golden\": {}/" whole >'; do
+    eval "$damage monge-test/results.json"
+    exits 2 accept --golden g; err_has 'monge-test/results.json is damaged: `monge test` makes it anew'; missing g/one.png
+    exits 1 test s --golden g --changed; says new one
+    err_has 'monge: warning: monge-test/results.json is damaged: this run goes as if there had been none before, and replaces it'
+    exits 1 test s --golden g; no_err
+done
+# and what such a run has left is not taken for what belongs to a new picture
+echo depth >monge-test/new/one.depth.pfm; echo >monge-test/results.json
+exits 1 test s --golden g -q; missing monge-test/new/one.depth.pfm
 exits 2 accept --golden other; err_has 'the last run was with the goldens of g'
 sed 's/"name": "one"/"name": "..\/one"/' monge-test/results.json >x; cp x monge-test/results.json
 exits 2 accept --golden g; err_has '`../one` is no name of a golden'; missing one.png

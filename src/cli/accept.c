@@ -21,7 +21,9 @@ struct acceptance {
     struct golden_settings settings;
     struct golden_lock lock;
     struct golden_results results;
-    size_t taken, removed, refused;
+    const char **scenes; /* owned: names of the scenes of the run, sorted */
+    size_t scene_count;
+    size_t taken, removed, refused, done; /* done: before, already */
     bool trouble;
 };
 
@@ -105,26 +107,44 @@ static void refuse(struct acceptance *a, const struct golden_case *c, const char
     a->refused++;
 }
 
+static void pass_by(struct acceptance *a, const struct golden_case *c, const char *what) {
+    a->done++;
+    if (!a->args->option[OPTION_QUIET].given) say_line(stdout, "%s is %s already", c->name, what);
+}
+
 static void take_case(struct acceptance *a, struct golden_case *c) {
     struct monge_diagnostics *diag = monge_diagnostics_new();
     const char *why = diag ? find_obstacle(a, c, diag) : "out of memory";
     monge_diagnostics_free(diag);
     if (why)
         refuse(a, c, why);
+    else if (golden_is_taken(a->folder, &a->lock, c))
+        pass_by(a, c, "taken");
+    else if (!golden_is_as_noted(a->folder, &a->lock, c))
+        refuse(a, c, "its golden has changed since the run: `monge test` compares it anew");
     else if (!golden_take(a->folder, &a->lock, c))
         a->trouble = true;
     else {
         a->taken++;
-        if (!a->args->option[OPTION_QUIET].given) printf("took %s\n", c->name);
+        if (!a->args->option[OPTION_QUIET].given) say_line(stdout, "took %s", c->name);
     }
 }
 
+static int compare_names(const void *a, const void *b) {
+    return strcmp(*(const char *const *)a, *(const char *const *)b);
+}
+
+static bool name_scenes(struct acceptance *a) {
+    a->scenes = calloc(a->results.count + 1, sizeof *a->scenes);
+    if (!a->scenes) say_error("out of memory");
+    for (size_t i = 0; a->scenes && i < a->results.count; i++)
+        if (a->results.cases[i].scene_name) a->scenes[a->scene_count++] = a->results.cases[i].scene_name;
+    if (a->scenes) qsort(a->scenes, a->scene_count, sizeof *a->scenes, compare_names);
+    return a->scenes;
+}
+
 static bool was_in_run(const struct acceptance *a, const char *scene) {
-    for (size_t i = 0; i < a->results.count; i++) {
-        const char *name = a->results.cases[i].scene_name;
-        if (name && strcmp(name, scene) == 0) return true;
-    }
-    return false;
+    return bsearch(&scene, a->scenes, a->scene_count, sizeof scene, compare_names);
 }
 
 static bool is_below_root(const struct acceptance *a, const char *scene) {
@@ -153,18 +173,20 @@ static bool scene_is_back(const struct acceptance *a, const char *name) {
 static void remove_orphan(struct acceptance *a, struct golden_case *c) {
     free(c->golden_path);
     c->golden_path = c->kind == MONGE_GOLDEN_HASH ? NULL : golden_path(a->folder, c->name, ".png");
-    if (scene_is_back(a, c->name))
+    if (!golden_lock_find(&a->lock, c->name) && !(c->golden_path && golden_is_file(c->golden_path)))
+        pass_by(a, c, "removed");
+    else if (scene_is_back(a, c->name))
         refuse(a, c, "its scene is there again");
     else if (!golden_forget(a->folder, &a->lock, c))
         a->trouble = true;
     else {
         a->removed++;
-        if (!a->args->option[OPTION_QUIET].given) printf("removed %s\n", c->name);
+        if (!a->args->option[OPTION_QUIET].given) say_line(stdout, "removed %s", c->name);
     }
 }
 
 static void settle_case(struct acceptance *a, struct golden_case *c) {
-    if (c->taken || !is_wanted(a, c->name)) return;
+    if (!is_wanted(a, c->name)) return;
     if (c->status == GOLDEN_ORPHAN && a->args->option[OPTION_PRUNE].given) remove_orphan(a, c);
     if (golden_can_take(c) && c->scene && c->scene_name && c->rule_options) take_case(a, c);
 }
@@ -194,6 +216,7 @@ static enum status settle(struct acceptance *a) {
     if (!a->args->option[OPTION_QUIET].given) {
         printf("%zu taken", a->taken);
         if (a->removed > 0) printf(", %zu removed", a->removed);
+        if (a->done > 0) printf(", %zu done already", a->done);
         if (a->refused > 0) printf(", %zu left as they are", a->refused);
         printf("\n");
     }
@@ -210,7 +233,9 @@ static bool is_same_folder(const char *a, const char *b) {
 
 static bool read_run(struct acceptance *a) {
     char *path = golden_path(a->output, "results.json", "");
-    bool good = golden_results_read(&a->results, path);
+    const enum golden_reading reading = golden_results_read(&a->results, path);
+    bool good = reading == GOLDEN_READ;
+    if (reading == GOLDEN_DAMAGED) say_error("%s is damaged: `monge test` makes it anew", path);
     if (good && !a->results.folder) {
         say_error("%s is not there: `monge test` makes it, with --output %s", path, a->output);
         good = false;
@@ -233,12 +258,13 @@ static bool begin(struct acceptance *a) {
     golden_hold(a->folder);
     return limits_read(a->args, &a->loader.limits) &&
            golden_settings_read(&a->settings, a->folder, NULL, &a->loader) &&
-           golden_lock_read(&a->lock, a->folder) && read_run(a) && check_globs(a);
+           golden_lock_read(&a->lock, a->folder) && read_run(a) && name_scenes(a) && check_globs(a);
 }
 
 enum status accept_command(const struct arguments *args) {
     struct acceptance a = {.args = args};
     const enum status status = begin(&a) ? settle(&a) : STATUS_TROUBLE;
+    free(a.scenes);
     golden_results_free(&a.results);
     golden_lock_free(&a.lock);
     golden_settings_free(&a.settings);

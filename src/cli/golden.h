@@ -5,10 +5,10 @@
  *     golden_folder     names of goldens as paths, and the pictures that are there
  *     golden_run        a run of `monge test`: golden_case renders a scene, golden_judge compares its pictures, each a
  *                       case, with their goldens, golden_layers tells what changed, golden_old has the old picture
- *     golden_orphans    goldens whose scene is gone
+ *     golden_orphans    goldens whose scene is gone, or has another name
  *     golden_results    the run as a JSON document, which golden_reread reads again
  *     golden_tell       the run in a terminal and as TAP; golden_junit as XML; golden_files writes all that is asked for
- *     golden_take       makes the new picture of a case its golden */
+ *     golden_take       makes the new picture of a case its golden, where that is still the one that the run has found */
 #ifndef MONGE_CLI_GOLDEN_H
 #define MONGE_CLI_GOLDEN_H
 
@@ -20,7 +20,7 @@ enum golden_status {
     GOLDEN_NEW,     /* there is no golden yet */
     GOLDEN_MISSING, /* there ought to be one: half of it is there, or it cannot be read */
     GOLDEN_ORPHAN,  /* a golden whose scene is gone */
-    GOLDEN_BROKEN,  /* there is no picture: the scene is wrong, or its options do not fit it */
+    GOLDEN_BROKEN, /* there is no picture: the scene is wrong, or its options do not fit it; or no place for a golden */
     GOLDEN_STATUSES
 };
 extern const char *const GOLDEN_STATUS[GOLDEN_STATUSES]; /* "same", ... */
@@ -54,7 +54,8 @@ struct golden_case {
     bool trouble;  /* the system failed, not the scene */
     char *message; /* why it has its status, perhaps in many lines */
     struct golden_stamp now, old;      /* the scene's, and the golden's */
-    char golden_file[MONGE_HASH_SIZE]; /* of the file of a golden that is a picture */
+    char golden_file[MONGE_HASH_SIZE]; /* of the file of a golden that is a picture; "": there was none */
+    char *golden_line;                 /* of the golden in the lock; NULL: there was none */
     char *golden_path, *new_path;      /* of pictures that are there to be looked at */
     struct monge_tolerance tolerance;  /* its reason owned; NULL: none */
     char *tolerance_text;              /* as golden_tolerance_text has it */

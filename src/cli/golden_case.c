@@ -116,11 +116,19 @@ static struct golden_case *add_case(const struct subject *s) {
     return c;
 }
 
+/* One that cannot hold is none: that of a rule is told when that is read, that of a scene here. */
 static void set_tolerance(const struct subject *s, struct golden_case *c) {
     const struct monge_tolerance *own = monge_scene_tolerance(s->load->scene);
     const struct monge_tolerance *tolerance = s->scene->rule->rule->tolerance;
     if (!tolerance) tolerance = own;
     if (!tolerance) return;
+    if (!golden_knows_tolerance(s->run, c->kind)) {
+        if (tolerance == own)
+            golden_add_message(c,
+                               "its tolerance counts for nothing: a golden that is a hash has no pixels to "
+                               "compare, which `kind: png` keeps");
+        return;
+    }
     c->tolerance = *tolerance;
     c->tolerance.reason = say_text("%s", tolerance->reason);
     c->tolerance_text = golden_tolerance_text(tolerance);

@@ -36,6 +36,11 @@ bool golden_is_file(const char *path) {
     return stat(path, &status) == 0 && S_ISREG(status.st_mode);
 }
 
+bool golden_is_there(const char *path) {
+    struct stat status;
+    return lstat(path, &status) == 0;
+}
+
 bool golden_check_file(const char *path) {
     if (golden_is_file(path)) return true;
     say_error("%s is not a file", path);
@@ -45,6 +50,27 @@ bool golden_check_file(const char *path) {
 void golden_hold(const char *folder) {
     const int fd = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC); /* stays open */
     while (fd >= 0 && flock(fd, LOCK_EX) != 0 && errno == EINTR) continue;
+}
+
+/* The path `part` below the real path `from`. */
+static char *step(const char *from, const char *part) {
+    char *path = golden_path(from, part, ""), *real = realpath(path, NULL);
+    if (!real && strcmp(part, ".") == 0) real = say_text("%s", from);
+    if (!real && strcmp(part, "..") == 0) real = say_text("%.*s", (int)(strrchr(from, '/') - from), from);
+    if (!real) return path;
+    free(path);
+    return real;
+}
+
+char *golden_real_path(const char *path) {
+    char *real = realpath(*path == '/' ? "/" : ".", NULL), *copy = say_text("%s", path), *at = copy;
+    for (char *part; real && (part = strsep(&at, "/"));) {
+        char *next = step(real, *part ? part : ".");
+        free(real);
+        real = next;
+    }
+    free(copy);
+    return real ? real : say_text("%s", path);
 }
 
 /* ---- Writing ---- */
@@ -106,12 +132,22 @@ bool golden_remove(const char *folder, const char *path) {
         return false;
     }
     char *copy = say_text("%s", path);
-    for (char *slash; (slash = strrchr(copy, '/')) && (size_t)(slash - copy) > strlen(folder);) {
+    for (char *slash; folder && (slash = strrchr(copy, '/')) && (size_t)(slash - copy) > strlen(folder);) {
         *slash = '\0';
         if (rmdir(copy) != 0) break; /* something else is in it */
     }
     free(copy);
     return true;
+}
+
+bool golden_remove_picture(const char *folder, const char *path) {
+    bool good = true;
+    for (enum monge_layer layer = 0; layer < MONGE_LAYERS; layer++) {
+        char *beside = aov_path(layer, path);
+        good &= golden_remove(folder, beside);
+        free(beside);
+    }
+    return golden_remove(folder, path) && good;
 }
 
 /* ---- What is there ---- */
@@ -165,7 +201,8 @@ static void walk(struct names *names, const char *folder, const char *below) {
             if (S_ISDIR(status.st_mode)) walk(names, folder, inner);
             free(inner);
             name[picture_length(name)] = '\0';
-            if (!S_ISDIR(status.st_mode) && *name && !is_layer(full)) add_name(names, name);
+            const bool plain = S_ISREG(status.st_mode) || S_ISLNK(status.st_mode);
+            if (plain && *name && !is_layer(full)) add_name(names, name);
         }
         free(full);
         free(name);

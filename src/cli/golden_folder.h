@@ -11,13 +11,17 @@ bool golden_name_is_safe(const char *name);
 char *golden_path(const char *folder, const char *name, const char *extension);
 
 bool golden_is_file(const char *path);
+bool golden_is_there(const char *path); /* whatever it is: a folder, a link that leads nowhere */
 
-/* The same of what is there: a pipe or a device would be read without end. False: told. */
+/* The same as golden_is_file of what is there: a pipe or a device would be read without end. False: told. */
 bool golden_check_file(const char *path);
 
 /* Waits until no other process holds the folder, up to the end of this one: of two that read, change and write its lock the
  * later would undo what the earlier has done. Where there is no such folder, or no such thing as a lock, it goes on. */
 void golden_hold(const char *folder);
+
+/* The path from the root, without links and dots; of what is not there (yet), too. To be freed. */
+char *golden_real_path(const char *path);
 
 /* The file, complete or not at all, in folders that are made. False, with the reason told. */
 bool golden_write(const char *path, const struct monge_text *text);
@@ -27,9 +31,12 @@ bool golden_copy(const char *from, const char *to);
 /* Whether a path below the folder stays there: false, with the reason told, where a part of it is a symbolic link. */
 bool golden_check_inside(const char *folder, const char *path);
 
-/* Removes a file, and those folders above it up to `folder` that have become empty. False, with the reason told;
- * one that is not there is no trouble. */
+/* Removes a file, and those folders above it up to `folder` that have become empty; NULL: none, where others may be about to
+ * write into them. False, with the reason told; one that is not there is no trouble. */
 bool golden_remove(const char *folder, const char *path);
+
+/* The same of a picture and of the layers beside it. */
+bool golden_remove_picture(const char *folder, const char *path);
 
 /* The names of all pictures below a folder but for layers of others, sorted, up to a NULL; a folder that is not
  * there has none. To be freed, with its texts. */

@@ -7,6 +7,7 @@
 #include "cli/aov.h"
 #include "cli/golden_folder.h"
 #include "cli/golden_run.h"
+#include "cli/golden_take.h"
 #include "cli/say.h"
 
 /* ---- Goldens ---- */
@@ -69,7 +70,7 @@ static bool find_picture(struct golden_case *c, const char *path) {
     struct monge_diagnostics *diag = monge_diagnostics_new();
     struct monge_picture *picture = diag ? read_picture(c, path) : NULL;
     char pixels[MONGE_HASH_SIZE] = "";
-    const bool good = picture && monge_files_hash(path, "", NULL, diag, c->golden_file);
+    const bool good = picture && *c->golden_file;
     if (good) {
         golden_stamp_free(&c->old);
         c->old = (struct golden_stamp){0};
@@ -87,6 +88,11 @@ static bool find_at(struct golden_case *c, const struct golden_line *line, const
                     const char *lock) {
     const bool file = golden_is_file(path), png = c->kind != MONGE_GOLDEN_HASH,
                text = c->kind != MONGE_GOLDEN_PNG;
+    if (png && !file && golden_is_there(path)) {
+        golden_add_message(c, "%s is not a file: it is in the way of the golden", path);
+        c->status = GOLDEN_BROKEN;
+        return false;
+    }
     if (line && text) copy_stamp(&line->stamp, &c->old);
     if (png && !file && line) {
         golden_add_message(c, "%s has a line for it, but %s is not there", lock, path);
@@ -123,6 +129,7 @@ static bool has_passes(struct golden_case *c) {
 
 bool golden_find(const struct golden_run *run, struct golden_case *c) {
     char *path = golden_path(run->folder, c->name, ".png");
+    golden_note(run->folder, &run->lock, c);
     const bool found = find_at(c, golden_lock_find(&run->lock, c->name), path, run->lock.path);
     free(path);
     return found && halves_agree(run, c) && has_passes(c);
@@ -193,21 +200,23 @@ static void judge_picture(struct golden_case *c) {
 
 static void judge_hash(const struct golden_run *run, struct golden_case *c) {
     c->status = GOLDEN_CHANGED;
-    if (c->tolerance_text)
-        golden_add_message(c, "a golden that is a hash knows no tolerance: keep its picture, by `kind: png`");
     if (!run->old_program || !golden_render_old(run, c) || !compare_files(c)) return;
     judge_difference(c);
 }
 
 /* ---- Judging ---- */
 
+bool golden_knows_tolerance(const struct golden_run *run, enum monge_golden_kind kind) {
+    return kind != MONGE_GOLDEN_HASH || run->old_program;
+}
+
 static bool write_new(const struct golden_run *run, struct golden_case *c, const struct monge_film *film) {
     struct monge_diagnostics *diag = monge_diagnostics_new();
     char *folder = golden_path(run->output, "new", "");
     c->new_path = golden_path(folder, c->name, ".png");
     free(folder);
-    const bool good =
-        diag && golden_make_folders(c->new_path) && monge_film_write_png(film, c->new_path, diag);
+    const bool good = diag && golden_remove_picture(NULL, c->new_path) && golden_make_folders(c->new_path) &&
+                      monge_film_write_png(film, c->new_path, diag);
     if (diag && !good) add_diagnostics(c, diag);
     monge_diagnostics_free(diag);
     if (good) return true;
@@ -218,65 +227,8 @@ static bool write_new(const struct golden_run *run, struct golden_case *c, const
     return false;
 }
 
-/* Whether a value ends before this, which asked_text would print behind one. */
-static bool ends_value(const char *at) {
-    static const char letters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_0123456789";
-    static const char define[] = " -D ", frames[] = " --frames ";
-    const size_t name = strncmp(at, define, sizeof define - 1) ? 0 : strspn(at + sizeof define - 1, letters);
-    if (name > 0) return at[sizeof define - 1 + name] == '=';
-    if (strncmp(at, frames, sizeof frames - 1) != 0) return false;
-    return !at[sizeof frames - 1 + strspn(at + sizeof frames - 1, "0123456789")];
-}
-
-/* Bytes of the first word of options as asked_text prints them, which has no quotes. */
-static size_t word_length(const char *options, bool value) {
-    size_t length = value ? 0 : strcspn(options, " ");
-    while (value && options[length] && !ends_value(options + length)) length++;
-    return length;
-}
-
-/* Options as asked_text prints them, for a shell, each with a blank before it: they may come from anybody, by way of the
- * golden. */
-static char *quoted_options(const char *options) {
-    char *all = say_text("%s", "");
-    for (bool value = false; *options;) {
-        const size_t length = word_length(options, value);
-        char *word = say_text("%.*s", (int)length, options), *quoted = golden_quoted(word),
-             *longer = say_text("%s %s", all, quoted);
-        value = !value && strcmp(word, "-D") == 0;
-        options += length + (options[length] == ' ');
-        free(all);
-        free(quoted);
-        free(word);
-        all = longer;
-    }
-    return all;
-}
-
-/* The commit that brought the line, its scene, and the options of then. */
-static void set_old_command(const struct golden_run *run, struct golden_case *c) {
-    char *options = quoted_options(c->old.options ? c->old.options : "");
-    char *line = golden_lock_line(c->name, &c->old), *quoted_line = golden_quoted(line);
-    char *lock = golden_quoted(run->lock.path), *scene = golden_quoted(c->scene);
-    c->old_command = say_text(
-        "old=$(mktemp -d) && git worktree add \"$old\" \"$(git log -1 --format=%%h -S %s -- %s)\" && "
-        "monge render \"$old/$(git ls-files --full-name %s)\"%s -o old.png; "
-        "git worktree remove --force \"$old\"",
-        quoted_line, lock, scene, options);
-    free(options);
-    free(scene);
-    free(lock);
-    free(quoted_line);
-    free(line);
-    if (golden_causes(c).program == MONGE_DIFFERENT)
-        golden_add_message(
-            c,
-            "the golden is of another program (sources %.12s): `--old PROGRAM` shows it, where you have that",
-            c->old.program);
-}
-
-static void drop_new(const struct golden_run *run, struct golden_case *c) {
-    golden_remove(run->output, c->new_path);
+static void drop_new(struct golden_case *c) {
+    golden_remove(NULL, c->new_path);
     free(c->new_path);
     c->new_path = NULL;
 }
@@ -294,7 +246,7 @@ void golden_judge(const struct golden_run *run, struct golden_case *c, const str
     else
         judge_picture(c);
     if (c->status == GOLDEN_SAME)
-        drop_new(run, c);
+        drop_new(c);
     else if (c->status == GOLDEN_CHANGED && hash && !c->golden_path)
-        set_old_command(run, c);
+        golden_set_old_command(run, c);
 }

@@ -49,20 +49,27 @@ static void put_attribute(FILE *out, const char *name, const char *text) {
     putc('"', out);
 }
 
+/* A line to show in a list: of a longer message its first one. To be freed. */
+static char *message_of(const struct golden_case *c) {
+    char *detail = golden_detail(c);
+    if (detail) return detail;
+    return say_text("%.*s", c->message ? (int)strcspn(c->message, "\n") : 0, c->message ? c->message : "");
+}
+
 static void put_failure(FILE *out, const struct golden_case *c) {
     const char *element = c->status == GOLDEN_BROKEN ? "error" : "failure";
-    char *detail = golden_detail(c), *lines = NULL;
+    char *message = message_of(c), *lines = NULL;
     size_t size = 0;
     FILE *memory = open_memstream(&lines, &size);
     if (memory) golden_print_details(memory, c, "");
     if (memory) fclose(memory);
     fprintf(out, "      <%s type=\"%s\"", element, GOLDEN_STATUS[c->status]);
-    put_attribute(out, "message", detail ? detail : c->message ? c->message : GOLDEN_STATUS[c->status]);
+    put_attribute(out, "message", *message ? message : GOLDEN_STATUS[c->status]);
     fputs(">", out);
     put_text(out, lines ? lines : "");
     fprintf(out, "</%s>\n", element);
     free(lines);
-    free(detail);
+    free(message);
 }
 
 /* The folder of the scene is its class. */

@@ -114,9 +114,8 @@ static void print_hash(FILE *out, const char *key, const char *hash) {
     if (*hash) fprintf(out, " %s=%s", key, hash);
 }
 
-static void print_line(FILE *out, const struct golden_line *line) {
-    const struct golden_stamp *s = &line->stamp;
-    print_escaped(out, line->name, true);
+static void print_line(FILE *out, const char *name, const struct golden_stamp *s) {
+    print_escaped(out, name, true);
     fprintf(out, " %ux%ux%u", s->width, s->height, s->bits);
     print_hash(out, "pixels", s->pixels);
     print_hash(out, "scene", s->scene);
@@ -127,10 +126,9 @@ static void print_line(FILE *out, const struct golden_line *line) {
         fputs(" options=", out);
         print_escaped(out, s->options, false);
     }
-    putc('\n', out);
 }
 
-char *golden_lock_line(const char *name, const struct golden_stamp *stamp) {
+char *golden_lock_text(const char *name, const struct golden_stamp *stamp) {
     char *text = NULL;
     size_t size = 0;
     FILE *out = open_memstream(&text, &size);
@@ -138,10 +136,15 @@ char *golden_lock_line(const char *name, const struct golden_stamp *stamp) {
         say_error("out of memory");
         exit(STATUS_TROUBLE);
     }
-    print_escaped(out, name, true);
-    fprintf(out, " %ux%ux%u pixels=%s", stamp->width, stamp->height, stamp->bits, stamp->pixels);
+    print_line(out, name, stamp);
     fclose(out);
     return text;
+}
+
+char *golden_lock_line(const char *name, const struct golden_stamp *stamp) {
+    struct golden_stamp begin = {.width = stamp->width, .height = stamp->height, .bits = stamp->bits};
+    memcpy(begin.pixels, stamp->pixels, sizeof begin.pixels);
+    return golden_lock_text(name, &begin);
 }
 
 /* ---- The file ---- */
@@ -215,33 +218,55 @@ void golden_lock_free(struct golden_lock *lock) {
     free(lock->path);
 }
 
-const struct golden_line *golden_lock_find(const struct golden_lock *lock, const char *name) {
+/* One that is gone too. */
+static struct golden_line *find_line(const struct golden_lock *lock, const char *name) {
     const struct golden_line key = {.name = (char *)name};
     return lock->count ? bsearch(&key, lock->lines, lock->count, sizeof key, compare_lines) : NULL;
 }
 
-void golden_lock_put(struct golden_lock *lock, const char *name, const struct golden_stamp *stamp) {
-    golden_lock_remove(lock, name);
+const struct golden_line *golden_lock_find(const struct golden_lock *lock, const char *name) {
+    const struct golden_line *line = find_line(lock, name);
+    return line && !line->gone ? line : NULL;
+}
+
+/* A line without a name, at the place of one of that name. */
+static struct golden_line *insert_line(struct golden_lock *lock, const char *name) {
     struct golden_line *line = add_line(lock);
-    line->name = say_text("%s", name);
-    line->stamp = *stamp;
+    for (; line > lock->lines && strcmp(line[-1].name, name) > 0; line--) *line = line[-1];
+    return line;
+}
+
+void golden_lock_put(struct golden_lock *lock, const char *name, const struct golden_stamp *stamp) {
+    struct golden_line *line = find_line(lock, name);
+    if (line)
+        free_line(line);
+    else
+        line = insert_line(lock, name);
+    *line = (struct golden_line){.name = say_text("%s", name), .stamp = *stamp};
     line->stamp.options = say_text("%s", stamp->options ? stamp->options : "");
-    qsort(lock->lines, lock->count, sizeof *lock->lines, compare_lines);
 }
 
 void golden_lock_remove(struct golden_lock *lock, const char *name) {
-    struct golden_line *line = (struct golden_line *)golden_lock_find(lock, name);
-    if (!line) return;
-    free_line(line);
-    memmove(line, line + 1, (size_t)(lock->lines + --lock->count - line) * sizeof *line);
+    struct golden_line *line = find_line(lock, name);
+    if (line) line->gone = true;
+}
+
+static bool is_empty(const struct golden_lock *lock) {
+    for (size_t i = 0; i < lock->count; i++)
+        if (!lock->lines[i].gone) return false;
+    return true;
 }
 
 bool golden_lock_write(const struct golden_lock *lock) {
     struct monge_text text = {NULL, 0};
-    if (lock->count == 0) return unlink(lock->path) == 0 || errno == ENOENT;
+    if (is_empty(lock)) return unlink(lock->path) == 0 || errno == ENOENT;
     FILE *out = open_memstream(&text.bytes, &text.size);
     if (out) fputs("# Goldens of `monge test`, a line each; `monge accept` writes them.\n", out);
-    for (size_t i = 0; out && i < lock->count; i++) print_line(out, &lock->lines[i]);
+    for (size_t i = 0; out && i < lock->count; i++)
+        if (!lock->lines[i].gone) {
+            print_line(out, lock->lines[i].name, &lock->lines[i].stamp);
+            putc('\n', out);
+        }
     const bool good = out && fclose(out) == 0 && golden_write(lock->path, &text);
     free(text.bytes);
     return good;

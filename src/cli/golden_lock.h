@@ -14,6 +14,7 @@
 
 struct golden_line {
     char *name;                /* owned */
+    bool gone;                 /* removed: it is not written any more */
     struct golden_stamp stamp; /* its options "" where there are none */
 };
 
@@ -32,6 +33,9 @@ const struct golden_line *golden_lock_find(const struct golden_lock *lock, const
 
 /* How a line begins that no other golden has, up to its pixels: to look for in a history. To be freed. */
 char *golden_lock_line(const char *name, const struct golden_stamp *stamp);
+
+/* All of the line, without its end. To be freed. */
+char *golden_lock_text(const char *name, const struct golden_stamp *stamp);
 
 /* Puts a line in, in place of one of that name; the stamp is copied. */
 void golden_lock_put(struct golden_lock *lock, const char *name, const struct golden_stamp *stamp);

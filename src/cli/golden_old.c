@@ -1,4 +1,4 @@
-/* --old: the picture of a golden that is a hash, by the program that made it. */
+/* The picture of a golden that is a hash: by --old, the program that made it, or by a command that takes the scene of then. */
 #include <spawn.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,6 +8,8 @@
 #include "cli/golden_folder.h"
 #include "cli/golden_run.h"
 #include "cli/say.h"
+
+/* ---- --old ---- */
 
 /* Whether the command, a shell's, ends well. */
 static bool run_command(char *command) {
@@ -54,8 +56,81 @@ bool golden_render_old(const struct golden_run *run, struct golden_case *c) {
     if (same)
         c->golden_path = path;
     else
-        unlink(path); /* not its folder, which others may be about to write into */
+        golden_remove(NULL, path);
     if (!same) free(path);
     free(folder);
     return same;
+}
+
+/* ---- The command ---- */
+
+/* Whether a value ends before this, which asked_text would print behind one. */
+static bool ends_value(const char *at) {
+    static const char letters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_0123456789";
+    static const char define[] = " -D ", frames[] = " --frames ";
+    const size_t name = strncmp(at, define, sizeof define - 1) ? 0 : strspn(at + sizeof define - 1, letters);
+    if (name > 0) return at[sizeof define - 1 + name] == '=';
+    if (strncmp(at, frames, sizeof frames - 1) != 0) return false;
+    return !at[sizeof frames - 1 + strspn(at + sizeof frames - 1, "0123456789")];
+}
+
+/* Bytes of the first word of options as asked_text prints them, which has no quotes. */
+static size_t word_length(const char *options, bool value) {
+    size_t length = value ? 0 : strcspn(options, " ");
+    while (value && options[length] && !ends_value(options + length)) length++;
+    return length;
+}
+
+/* Options as asked_text prints them, for a shell, each with a blank before it: they may come from anybody, by way of the
+ * golden. */
+static char *quoted_options(const char *options) {
+    char *all = say_text("%s", "");
+    for (bool value = false; *options;) {
+        const size_t length = word_length(options, value);
+        char *word = say_text("%.*s", (int)length, options), *quoted = golden_quoted(word),
+             *longer = say_text("%s %s", all, quoted);
+        value = !value && strcmp(word, "-D") == 0;
+        options += length + (options[length] == ' ');
+        free(all);
+        free(quoted);
+        free(word);
+        all = longer;
+    }
+    return all;
+}
+
+/* Whether a commit can give another picture than there is now: it has the line, and the scene or its options were others.
+ * Texts are words for a shell. */
+static bool is_in_history(const struct golden_case *c, const char *line, const char *lock,
+                          const char *scene) {
+    const struct monge_causes causes = golden_causes(c);
+    if (causes.text == MONGE_SAME && causes.options == MONGE_SAME) return false;
+    char *command = say_text("exec </dev/null >/dev/null 2>&1; git grep -qF -e %s HEAD -- %s && "
+                             "git ls-files --error-unmatch -- %s",
+                             line, lock, scene);
+    const bool there = run_command(command);
+    free(command);
+    return there;
+}
+
+void golden_set_old_command(const struct golden_run *run, struct golden_case *c) {
+    char *options = quoted_options(c->old.options ? c->old.options : "");
+    char *line = golden_lock_line(c->name, &c->old), *quoted_line = golden_quoted(line);
+    char *lock = golden_quoted(run->lock.path), *scene = golden_quoted(c->scene);
+    if (is_in_history(c, quoted_line, lock, scene))
+        c->old_command = say_text(
+            "old=$(mktemp -d) && git worktree add \"$old\" \"$(git log -1 --format=%%h -S %s -- %s)\" && "
+            "monge render \"$old/$(git ls-files --full-name %s)\"%s -o old.png; "
+            "git worktree remove --force \"$old\"",
+            quoted_line, lock, scene, options);
+    free(options);
+    free(scene);
+    free(lock);
+    free(quoted_line);
+    free(line);
+    if (golden_causes(c).program == MONGE_DIFFERENT)
+        golden_add_message(
+            c,
+            "the golden is of another program (sources %.12s): `--old PROGRAM` shows it, where you have that",
+            c->old.program);
 }

@@ -63,6 +63,7 @@ static void read_case(const struct monge_value *value, struct golden_case *c) {
         .kind = (enum monge_golden_kind)index_of(GOLDEN_KIND, 3, kind, MONGE_GOLDEN_PNG),
         .status = (enum golden_status)index_of(GOLDEN_STATUS, GOLDEN_STATUSES, status, GOLDEN_BROKEN),
         .taken = read_flag(value, "taken"),
+        .golden_line = read_text(value, "golden_line"),
         .new_path = read_text(monge_value_get(value, "pictures"), "new"),
         .tolerance = {.reason = read_text(tolerance, "reason")},
         .tolerance_text = read_text(tolerance, "text"),
@@ -92,20 +93,32 @@ static bool read_cases(struct golden_results *results, const struct monge_value 
     return true;
 }
 
-bool golden_results_read(struct golden_results *results, const char *path) {
-    *results = (struct golden_results){0};
-    if (access(path, F_OK) != 0 && errno == ENOENT) return true;
-    if (!golden_check_file(path)) return false;
-    struct monge_diagnostics *diag = monge_diagnostics_new();
-    struct monge_document *document = diag ? monge_document_read(path, NULL, diag) : NULL;
+/* What is no document at all may have been one of ours. */
+static enum golden_reading read_document(struct golden_results *results, const char *path,
+                                         struct monge_diagnostics *diag) {
+    struct monge_document *document = monge_document_read(path, NULL, diag);
     const struct monge_value *root = document ? monge_document_root(document) : NULL;
-    if (diag) monge_diagnostics_print(diag, say_stream());
+    const bool others = root && !monge_value_text(root) && !monge_value_get(root, "golden");
     results->folder = read_text(root, "golden");
-    const bool good = document && results->folder && read_cases(results, monge_value_get(root, "scenes"));
-    if (document && !good) say_error("%s: no results of `monge test`", path);
+    const bool good = results->folder && read_cases(results, monge_value_get(root, "scenes"));
+    const bool unread = monge_diagnostics_failures(diag) > 0;
+    if (others) say_error("%s: no results of `monge test`", path);
+    if (unread) monge_diagnostics_print(diag, say_stream());
     monge_document_free(document);
+    return others || unread ? GOLDEN_UNREAD : good ? GOLDEN_READ : GOLDEN_DAMAGED;
+}
+
+enum golden_reading golden_results_read(struct golden_results *results, const char *path) {
+    *results = (struct golden_results){0};
+    if (access(path, F_OK) != 0 && errno == ENOENT) return GOLDEN_READ;
+    if (!golden_check_file(path)) return GOLDEN_UNREAD;
+    struct monge_diagnostics *diag = monge_diagnostics_new();
+    const enum golden_reading reading = diag ? read_document(results, path, diag) : GOLDEN_UNREAD;
     monge_diagnostics_free(diag);
-    return good;
+    if (reading == GOLDEN_READ) return reading;
+    golden_results_free(results);
+    *results = (struct golden_results){0};
+    return reading;
 }
 
 void golden_results_free(struct golden_results *results) {

@@ -185,6 +185,7 @@ static void put_case(FILE *out, const struct golden_case *c) {
     put_stamp(out, "stamp", &c->now);
     put_stamp(out, "golden_stamp", &c->old);
     if (*c->golden_file) put_text(out, "golden_file", c->golden_file);
+    put_text(out, "golden_line", c->golden_line);
     put_text(out, "command", c->command);
     put_text(out, "old_command", c->old_command);
     put_key(out, "seconds");

@@ -19,9 +19,15 @@ char *golden_summary(const struct golden_results *results);
 /* The document. To be freed; its end is a line break. */
 char *golden_results_text(const struct golden_results *results);
 
-/* Reads a document again: what accept and the next run need of it. False, with the reason told, where it is none;
- * one that is not there gives no cases. To be freed either way. */
-bool golden_results_read(struct golden_results *results, const char *path);
+enum golden_reading {
+    GOLDEN_READ,
+    GOLDEN_DAMAGED, /* it is, or was, a document of a run, and cannot be used; not told */
+    GOLDEN_UNREAD   /* it cannot be read, or is a document of somebody else; the reason is told */
+};
+
+/* Reads a document again: what accept and the next run need of it; one that is not there gives no cases, as one that is not
+ * read. To be freed. */
+enum golden_reading golden_results_read(struct golden_results *results, const char *path);
 void golden_results_free(struct golden_results *results);
 
 const struct golden_case *golden_results_find(const struct golden_results *results,

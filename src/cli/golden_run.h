@@ -31,6 +31,9 @@ struct golden_run {
 /* Renders the pictures of a scene, and judges them: its cases. */
 void golden_scene_run(const struct golden_run *run, struct golden_scene *scene);
 
+/* Whether goldens of this kind have pixels, so that a difference can be within a tolerance: hashes have with --old alone. */
+bool golden_knows_tolerance(const struct golden_run *run, enum monge_golden_kind kind);
+
 /* What the golden of a case is, before its picture is rendered: c->old, c->golden_path, c->golden_file; and, where
  * there is none or half of it, the status. False: there is nothing to compare with. */
 bool golden_find(const struct golden_run *run, struct golden_case *c);
@@ -46,6 +49,9 @@ void golden_judge(const struct golden_run *run, struct golden_case *c, const str
 /* The golden's picture where it is a hash, by the program of --old, in the run's folder. False: it is another one, or
  * there is none; the message of the case tells. */
 bool golden_render_old(const struct golden_run *run, struct golden_case *c);
+
+/* c->old_command, which makes the golden's picture of the commit that brought its line, where one is known that can. */
+void golden_set_old_command(const struct golden_run *run, struct golden_case *c);
 
 /* Writes the passes of the scene, as it is now, beside the case's new picture, their hashes into c->now; and tells what
  * has changed since the golden, where that has passes too, or hashes of them. What goes wrong is a message. */

@@ -35,26 +35,18 @@ char *golden_detail(const struct golden_case *c) {
 static void print_lines(FILE *out, const char *text, const char *before) {
     for (const char *line = text; *line;) {
         const size_t length = strcspn(line, "\n");
-        fputs(before, out);
-        for (size_t i = 0; i < length; i++) {
-            const unsigned char c = (unsigned char)line[i];
-            putc(c < 0x20 || c == 0x7f ? '?' : c, out);
-        }
-        putc('\n', out);
+        say_line(out, "%s%.*s", before, (int)length, line);
         line += length + (line[length] == '\n');
     }
 }
 
 static void print_field(FILE *out, const char *key, const char *text, const char *before) {
-    if (!text) return;
-    char *line = say_text("%s%s", key, text);
-    print_lines(out, line, before);
-    free(line);
+    if (text) say_line(out, "%s%s%s", before, key, text);
 }
 
 void golden_print_details(FILE *out, const struct golden_case *c, const char *before) {
-    if (c->status == GOLDEN_SAME) return;
     if (c->message) print_lines(out, c->message, before);
+    if (c->status == GOLDEN_SAME) return;
     for (size_t i = 0; i < c->change_count; i++) print_lines(out, c->changes[i], before);
     char *differs = c->status == GOLDEN_CHANGED ? golden_causes_text(c) : NULL;
     if (differs) print_lines(out, differs, before);
@@ -70,14 +62,12 @@ void golden_print_details(FILE *out, const struct golden_case *c, const char *be
 
 static void tell_line(const struct golden_teller *teller, const struct golden_case *c) {
     static const char *const colors[] = {"32", "31", "36", "33", "33", "31"};
-    char *detail = golden_detail(c),
-         *line = say_text("%s%s%s", c->name, detail ? "  " : "", detail ? detail : "");
+    char *detail = golden_detail(c);
     if (teller->colors) fprintf(teller->out, "\033[%sm", colors[c->status]);
     fprintf(teller->out, "%-8s", GOLDEN_STATUS[c->status]);
     if (teller->colors) fputs("\033[0m", teller->out);
-    print_lines(teller->out, line, " ");
+    say_line(teller->out, " %s%s%s", c->name, detail ? "  " : "", detail ? detail : "");
     golden_print_details(teller->out, c, "         ");
-    free(line);
     free(detail);
 }
 

@@ -6,7 +6,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "cli/aov.h"
 #include "cli/batch.h"
 #include "cli/clock.h"
 #include "cli/golden_files.h"
@@ -132,6 +131,17 @@ static bool names_all(const struct arguments *args) {
     return true;
 }
 
+static void warn_of_tolerances(const struct golden_run *run) {
+    for (size_t i = 0; i < run->settings.count; i++) {
+        const struct monge_golden_rule *rule = run->settings.rules[i].rule;
+        if (rule->tolerance && !golden_knows_tolerance(run, rule->kind))
+            say_error("warning: %s:%u: the tolerance of this rule counts for nothing: goldens that are "
+                      "hashes have no "
+                      "pixels to compare, which `kind: png` keeps",
+                      run->settings.path, rule->line);
+    }
+}
+
 /* ---- The folder of the run ---- */
 
 /* What the run before has left. */
@@ -143,12 +153,7 @@ static bool clear_folder(const struct golden_run *run) {
         if (!golden_name_is_safe(name)) continue;
         char *folder = golden_path(run->output, folders[i % 2], "");
         char *path = golden_path(folder, name, ".png");
-        good &= golden_remove(run->output, path);
-        for (enum monge_layer layer = 0; layer < MONGE_LAYERS; layer++) {
-            char *beside = aov_path(layer, path);
-            good &= golden_remove(run->output, beside);
-            free(beside);
-        }
+        good &= golden_remove_picture(run->output, path);
         free(path);
         free(folder);
     }
@@ -166,10 +171,31 @@ static bool make_folder(const char *path) {
     return good;
 }
 
+/* The run writes into its folder, and removes what is in its new/ and old/: goldens must not be there. */
+static bool check_folders(const struct golden_run *run) {
+    static const char *const parts[] = {"", "new", "old"};
+    char *goldens = golden_real_path(run->folder);
+    bool good = true;
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
+        char *path = golden_path(run->output, parts[i], ""), *real = golden_real_path(path);
+        good &= strcmp(real, goldens) != 0;
+        free(real);
+        free(path);
+    }
+    if (!good)
+        say_error("--output %s would write into the folder of the goldens, %s", run->output, run->folder);
+    free(goldens);
+    return good;
+}
+
 static bool prepare_folder(struct golden_run *run) {
     char *results = golden_path(run->output, "results.json", "");
-    const bool good = golden_results_read(&run->last, results) && make_folder(run->output) &&
-                      clear_folder(run) && golden_remove(run->output, results);
+    const enum golden_reading reading = golden_results_read(&run->last, results);
+    if (reading == GOLDEN_DAMAGED)
+        say_error("warning: %s is damaged: this run goes as if there had been none before, and replaces it",
+                  results);
+    const bool good = reading != GOLDEN_UNREAD && make_folder(run->output) && clear_folder(run) &&
+                      golden_remove(run->output, results);
     free(results);
     return good && make_folder(run->output); /* the last file that goes may take the folder with it */
 }
@@ -203,16 +229,28 @@ static bool gather(struct test *test) {
     return cases;
 }
 
+static int compare_cases(const void *a, const void *b) {
+    const struct golden_case *p = *(const struct golden_case *const *)a,
+                             *q = *(const struct golden_case *const *)b;
+    const int order = strcmp(p->name, q->name);
+    return order ? order : p < q ? -1 : p > q;
+}
+
 /* Names that frames and parameters make may be those of other scenes. */
-static bool check_names(const struct golden_results *results) {
-    for (size_t i = 0; i < results->count; i++)
-        for (size_t k = 0; k < i; k++) {
-            if (strcmp(results->cases[i].name, results->cases[k].name) != 0) continue;
-            say_error("%s and %s have the same golden, %s", results->cases[k].scene, results->cases[i].scene,
-                      results->cases[i].name);
-            return false;
-        }
-    return true;
+static bool check_names(const struct golden_case *cases, size_t count) {
+    const struct golden_case **sorted = calloc(count + 1, sizeof *sorted);
+    bool good = sorted != NULL;
+    if (!good) say_error("out of memory");
+    for (size_t i = 0; good && i < count; i++) sorted[i] = &cases[i];
+    if (good && count > 1) qsort(sorted, count, sizeof *sorted, compare_cases);
+    for (size_t i = 1; good && i < count; i++) {
+        good = strcmp(sorted[i - 1]->name, sorted[i]->name) != 0;
+        if (!good)
+            say_error("%s and %s have the same golden, %s", sorted[i - 1]->scene, sorted[i]->scene,
+                      sorted[i]->name);
+    }
+    free(sorted);
+    return good;
 }
 
 static bool take_new(struct test *test) {
@@ -221,19 +259,21 @@ static bool take_new(struct test *test) {
     golden_lock_free(&run->lock);
     if (!golden_lock_read(&run->lock, run->folder)) return false;
     size_t taken = 0, wanted = 0;
-    bool lines = false;
+    bool good = true;
     for (size_t i = 0; i < test->results.count; i++) {
         struct golden_case *c = &test->results.cases[i];
         if (!golden_can_take(c)) continue;
         wanted++;
-        c->taken = golden_take(run->folder, &run->lock, c);
+        if (golden_is_as_noted(run->folder, &run->lock, c))
+            good &= c->taken = golden_take(run->folder, &run->lock, c);
+        else
+            say_error("%s is left as it is: its golden has changed during the run", c->name);
         taken += c->taken;
-        lines |= c->taken;
     }
-    if (lines && !golden_lock_write(&run->lock)) return false;
+    if (taken > 0 && !golden_lock_write(&run->lock)) return false;
     if (wanted > 0 && !test->teller.tap)
         fprintf(test->teller.out, "%zu of %zu new pictures are goldens now\n", taken, wanted);
-    return taken == wanted;
+    return good;
 }
 
 /* ---- What it comes to ---- */
@@ -250,13 +290,33 @@ static enum status judge(const struct test *test) {
     return worst;
 }
 
+/* Pictures of goldens that have become hashes are no orphans: they may be there for something else. */
+static void mention_pictures(const struct test *test) {
+    char *first = NULL;
+    size_t count = 0;
+    for (size_t i = 0; i < test->results.count; i++) {
+        const struct golden_case *c = &test->results.cases[i];
+        char *path = golden_path(test->run.folder, c->name, ".png");
+        const bool useless = c->kind == MONGE_GOLDEN_HASH && c->scene && golden_is_file(path);
+        if (useless && count++ == 0)
+            first = path;
+        else
+            free(path);
+    }
+    if (count == 1) say_line(test->teller.out, "%s is not compared: its golden is a hash", first);
+    if (count > 1)
+        say_line(test->teller.out, "%s and %zu more pictures are not compared: their goldens are hashes",
+                 first, count - 1);
+    free(first);
+}
+
 static void hint(const struct test *test) {
     bool can = false, orphans = false;
     for (size_t i = 0; i < test->results.count; i++) {
         can |= golden_can_take(&test->results.cases[i]) && !test->results.cases[i].taken;
         orphans |= test->results.cases[i].status == GOLDEN_ORPHAN;
     }
-    if (!(can || orphans) || test->teller.tap || test->teller.quiet) return;
+    if (!(can || orphans)) return;
     const bool usual = !wants(test, OPTION_TEST_OUTPUT);
     fprintf(test->teller.out, "`monge accept --golden %s%s%s%s` %s\n", test->run.folder,
             usual ? "" : " --output ", usual ? "" : test->run.output, orphans ? " --prune" : "",
@@ -279,12 +339,15 @@ static enum status run_test(struct test *test) {
         golden_tell(&test->teller, &test->results.cases[i]);
     test->results.seconds = clock_seconds() - test->begun;
     golden_tell_end(&test->teller, &test->results);
-    if (!check_names(&test->results)) return STATUS_TROUBLE;
+    if (!check_names(test->results.cases, first_orphan)) return STATUS_TROUBLE;
     interrupt_defer();
     bool good = !wants(test, OPTION_UPDATE_ONLY_FAILED) || take_new(test);
     good &= golden_files_write(&test->results, run->output, test->args.option);
     interrupt_settle();
-    hint(test);
+    if (!test->teller.tap && !test->teller.quiet) {
+        mention_pictures(test);
+        hint(test);
+    }
     return good ? judge(test) : STATUS_TROUBLE;
 }
 
@@ -318,11 +381,13 @@ static bool begin(struct test *test, const struct arguments *args) {
                                           .colors = isatty(fileno(out)) && !getenv("NO_COLOR")};
     test->results.folder = say_text("%s", run->folder);
     const enum monge_golden_kind kind = (enum monge_golden_kind)option[OPTION_GOLDEN_KIND].choice;
-    return loader_begin(&run->loader, args) &&
-           golden_settings_read(&run->settings, run->folder, option[OPTION_GOLDEN_KIND].given ? &kind : NULL,
-                                &run->loader) &&
-           find_scenes(test) && name_scenes(run) && golden_lock_read(&run->lock, run->folder) &&
-           prepare_folder(run);
+    if (!loader_begin(&run->loader, args) ||
+        !golden_settings_read(&run->settings, run->folder, option[OPTION_GOLDEN_KIND].given ? &kind : NULL,
+                              &run->loader))
+        return false;
+    warn_of_tolerances(run);
+    return check_folders(run) && find_scenes(test) && name_scenes(run) &&
+           golden_lock_read(&run->lock, run->folder) && prepare_folder(run);
 }
 
 static void end(struct test *test) {
