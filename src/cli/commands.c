@@ -107,9 +107,10 @@ const struct option_row OPTION_TABLE[OPTIONS] = {
     [OPTION_MASK] = {"mask", 0, VALUE_FILE, IN_DIFF, "MASK", 0, 0, "the same as --ignore MASK"},
     [OPTION_PPD] = {"ppd", 0, VALUE_FRACTION, IN_DIFF, "F", 1, 1000,
                     "pixels per degree of sight, for flip; 67 by default"},
-    [OPTION_HEAT_MAP] = {"out", 'o', VALUE_FILE, IN_DIFF, "FILE", 0, 0,
-                         "write a picture of where they differ; - is standard output"},
-    [OPTION_DIFF_JSON] = {"json", 0, VALUE_NONE, IN_DIFF, NULL, 0, 0, "as one JSON object"},
+    [OPTION_HEAT_MAP] = {"out", 'o', VALUE_FILE, IN_DIFF, "FILE|DIR", 0, 0,
+                         "write a picture of where they differ; - is standard output; of folders: a folder"},
+    [OPTION_DIFF_JSON] = {"json", 0, VALUE_NONE, IN_DIFF, NULL, 0, 0,
+                          "as one JSON object, of folders a list of them"},
     [OPTION_LIMIT] = {"limit", 0, VALUE_PAIR, IN_RENDER | IN_CHECK | IN_INFO | IN_TEST | IN_ACCEPT,
                       "NAME=VALUE", 0, 0, "what a scene may take, see above; with k, M or G; repeatable"},
     [OPTION_UNTRUSTED] = {"untrusted", 0, VALUE_NONE, IN_RENDER | IN_CHECK | IN_INFO | IN_TEST, NULL, 0, 0,
@@ -390,14 +391,23 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
     [COMMAND_DIFF] =
         {
             .name = "diff",
-            .operands = "A.png B.png",
-            .doc = "tell whether two pictures are the same, and how they differ",
+            .operands = "A B",
+            .doc = "tell whether two pictures, or two folders of them, are the same, and how they differ",
             .text =
                 {"Two pictures are the same when they have the same size, bits a channel, colour space and "
                  "pixels. Text, compression, and whether there is a palette do not count; grey is equal red, "
                  "green and blue, a picture without alpha is opaque, and one that names no colour space is "
                  "sRGB. Any PNG will do. Prints a line about what differs; exit status 0 where they are the "
-                 "same, 1 where they are not, 2 where one cannot be read.",
+                 "same, 1 where they are not, 2 where one cannot be read. Files with the same bytes are the "
+                 "same "
+                 "without being decoded: that the pixels of both are damaged is not told.",
+                 "Of two folders all PNG files below them are compared by their names, several at once; what "
+                 "is "
+                 "hidden and links to folders are passed by. Prints a line for each that differs or that one "
+                 "folder alone has, and one that counts; --out is then a folder, where each that differs "
+                 "gets its "
+                 "heat map under its name, and exit status 1 means that something differs or is missing. A "
+                 "picture and a folder: the picture of that name in the folder.",
                  "With --max-delta pixels differ where a channel does by more than that, on a scale from 0 "
                  "to 1; "
                  "with --max-pixels that many, or that part, may; with both, that many by more than that. "
@@ -430,8 +440,13 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                  "and each "
                  "metric by its name. Without --metric these are exact and max. A metric is null where the "
                  "pixels "
-                 "cannot be compared; psnr, which is then infinite, also where all are the same."},
+                 "cannot be compared; psnr, which is then infinite, also where all are the same. Of folders "
+                 "it "
+                 "is a list of such objects, each with its name before; one that cannot be compared has "
+                 "name, "
+                 "same, why (missing or trouble), a and b (file; null where there is none) alone."},
             .examples = {{"monge diff golden.png new.png", "exit status 0 where they are the same"},
+                         {"monge diff before/ after/ --out heat/", "all of two folders, with heat maps"},
                          {"monge diff a.png b.png --max-delta 0.01 --max-pixels 0.1%",
                           "one pixel in a thousand may differ by more than 0.01"},
                          {"monge diff a.png b.png --metric flip --max-delta 0.02 --out heat.png",
