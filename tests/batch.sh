@@ -171,6 +171,12 @@ echo '# a comment' >>one.yaml; skip; wrote "the scene"
 echo 'params: {r: 3}' >lib/defs.yaml; skip; wrote "what it includes"
 skip --samples 2; ok "options" grep -q ^wrote err; skip; wrote "other options"
 skip -D a=2; ok "a parameter" grep -q ^wrote err; skip -D a=2; err_has 'unchanged one.png'; skip; wrote "without it"
+skip -D a=2.50 --shadow 1; ok "numbers" grep -q ^wrote err
+for same in '-D a=2.5 --shadow 1.0' '-D a=2.500 --no-shadows' '-D a=2.5 --shadow 1e0'; do
+    skip $same; ok "$same is the same" grep -q '^unchanged one.png' err
+done
+for other in 2.05 2.5e0 '2.5 + 0' 25 250; do skip -D "a=$other" --shadow 1; ok "$other is another" grep -q ^wrote err; done
+skip -D a=25 --shadow 1; skip; wrote "other numbers"
 head -c -1 one.png >cut; mv cut one.png; skip; wrote "a torn picture"
 cp one.png good.png
 rm lib/defs.yaml; skip; ok "what has gone is an error" [ $status -eq 1 ]; same one.png good.png

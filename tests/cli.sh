@@ -114,6 +114,9 @@ for form in -V version; do exits 0 $form; ok "$form is --version" cmp out expect
 printf 'params: {a: 0, b: 0}\nscene: [{sphere: {radius: 1 + a + b}}]\n' >two-params.yaml
 exits 0 render -q two-params.yaml --size 9x8 --no-shadows --depth 2 -D b=2 -D a=1 -o asked.png
 ok 'a picture tells its options' grep -qa -e '--size 9x8 --shadow 1 --depth 2 -D a=1 -D b=2' asked.png
+exits 0 render -q two-params.yaml --size 09x8 --samples 02 --region 0,00,9,8 --shadow .50 -D a=-0.20 -D 'b=1 + 2' -o asked.png
+ok 'numbers by their value, words as a shell takes them' \
+    grep -qa -e "--size 9x8 --samples 2 --region 0,0,9,8 --shadow 0.5 -D a=-0.2 -D 'b=1 + 2'" asked.png
 exits 2 version x; err_has 'version: expected nothing more'
 exits 0 --help; out_has 'usage: monge COMMAND'; out_has 'render SCENE...'; no_err
 exits 0 -h; out_has 'usage: monge COMMAND'
