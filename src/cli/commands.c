@@ -84,6 +84,8 @@ const struct option_row OPTION_TABLE[OPTIONS] = {
                                "leave pictures alone that program, options and files would make again"},
     [OPTION_RESUME] = {"resume", 0, VALUE_NONE, IN_RENDER, NULL, 0, 0,
                        "go on where a run with --resume was stopped; implies --skip-unchanged"},
+    [OPTION_DRY_RUN] = {"dry-run", 'n', VALUE_NONE, IN_RENDER, NULL, 0, 0,
+                        "write nothing; tell which pictures would be rendered, and which not"},
     [OPTION_KEEP_GOING] = {"keep-going", 'k', VALUE_NONE, IN_RENDER, NULL, 0, 0,
                            "after a failure render the others all the same; this is the default"},
     [OPTION_FAIL_FAST] = {"fail-fast", 0, VALUE_NONE, IN_RENDER, NULL, 0, 0,
@@ -217,6 +219,11 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                  "goes on from there, to the same bytes. The file goes when the picture is complete; it "
                  "counts for nothing where the scene, the settings or the program are no longer the same. "
                  "Of two runs for the same picture one keeps the tiles, and both make the picture.",
+                 "--dry-run writes nothing: it prints `SCENE -> FILE: would be rendered`, with "
+                 "--skip-unchanged or "
+                 "--resume `: its text differs` or what else the reason is, or `unchanged`. Scenes are read "
+                 "only "
+                 "with --frames; what is wrong in others is for `monge check` to tell.",
                  "--progress json writes a line for each picture that is done and ten a second while one is "
                  "rendered: an object with done, total, rendered, unchanged, failed (pictures), part (0 to "
                  "1), "
@@ -232,6 +239,7 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                          {"monge render scenes/ -o pictures/ --size 320x240", "small pictures of many"},
                          {"monge render scenes/ -o pictures/ --resume --log pictures.log",
                           "a long batch: to be given again if it is stopped"},
+                         {"monge render scenes/ -o pictures/ --resume --dry-run", "what that would render"},
                          {"monge render king.yaml -o 'draft-{name}.png' --shading diffuse --no-shadows",
                           "a quick look, in draft-king.png"},
                          {"monge render king.yaml -D roughness=0.1,0.2,0.4 -o 'king-{roughness}.png'",

@@ -50,6 +50,7 @@ enum option_id {
     OPTION_JOBS,
     OPTION_SKIP_UNCHANGED,
     OPTION_RESUME,
+    OPTION_DRY_RUN,
     OPTION_KEEP_GOING,
     OPTION_FAIL_FAST,
     OPTION_STATS,
@@ -121,11 +122,11 @@ struct example {
 
 struct command_row {
     const char *name;
-    const char *operands;       /* "SCENE...", "" */
-    const char *doc;            /* no capital, no full stop */
-    const char *text[16];       /* paragraphs, up to a NULL */
-    struct example examples[8]; /* up to a NULL */
-    const char *operand;        /* "scene"; NULL where it needs none */
+    const char *operands;        /* "SCENE...", "" */
+    const char *doc;             /* no capital, no full stop */
+    const char *text[20];        /* paragraphs, up to a NULL */
+    struct example examples[12]; /* up to a NULL */
+    const char *operand;         /* "scene"; NULL where it needs none */
     enum status (*run)(const struct arguments *args);
 };
 extern const struct command_row COMMAND_TABLE[COMMANDS];

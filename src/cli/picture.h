@@ -13,6 +13,8 @@ struct picture {
     const struct monge_define *defines;
     size_t define_count;
     enum outcome outcome;
+    const char
+        *reason; /* with --dry-run: why it would be rendered; "": nobody asked; NULL: it would not. Static */
     /* Of a picture that was rendered: */
     struct monge_settings settings;
     struct monge_region region; /* what was rendered of it: the size of the file */

@@ -20,25 +20,25 @@ static char *format_text(const char *format, va_list args) {
     exit(STATUS_TROUBLE);
 }
 
-static void print_line(const char *prefix, const char *format, va_list args) {
+static void print_line(FILE *out, const char *prefix, const char *format, va_list args) {
     char *text = format_text(format, args);
     for (char *c = text; *c; c++)
         if ((unsigned char)*c < 0x20 || *c == 0x7f) *c = '?';
-    fprintf(say_stream(), "%s%s\n", prefix, text);
+    fprintf(out, "%s%s\n", prefix, text);
     free(text);
 }
 
 void say_error(const char *format, ...) {
     va_list args;
     va_start(args, format);
-    print_line("monge: ", format, args);
+    print_line(say_stream(), "monge: ", format, args);
     va_end(args);
 }
 
 void say_usage(enum command_id command, const char *format, ...) {
     va_list args;
     va_start(args, format);
-    print_line("monge: ", format, args);
+    print_line(say_stream(), "monge: ", format, args);
     va_end(args);
     if (command == COMMAND_NONE)
         fputs("see `monge help`\n", say_stream());
@@ -49,7 +49,14 @@ void say_usage(enum command_id command, const char *format, ...) {
 void say_note(const char *format, ...) {
     va_list args;
     va_start(args, format);
-    print_line("", format, args);
+    print_line(say_stream(), "", format, args);
+    va_end(args);
+}
+
+void say_line(FILE *out, const char *format, ...) {
+    va_list args;
+    va_start(args, format);
+    print_line(out, "", format, args);
     va_end(args);
 }
 

@@ -19,6 +19,9 @@ void say_usage(enum command_id command, const char *format, ...) __attribute__((
 /* A line there, like say_error's but without "monge: ". */
 void say_note(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
+/* A line of text into any stream, the same way. */
+void say_line(FILE *out, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
 /* As asprintf; ends the program where there is no memory. To be freed. */
 char *say_text(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
