@@ -497,7 +497,22 @@ for bad in 0 0-3 3-2 -3 x 1-x 1:0 1: all: 1-2-3 '' 1000001 allx; do
     exits 2 render view.yaml --frames "$bad"; err_has "--frames: expected N, A-B, A- or all, perhaps with :STEP, from 1, found \`$bad\`"
 done
 for bad in 13 12-13 13- 13-14; do exits 2 render view.yaml --frames $bad; err_has "--frames $bad: view.yaml has 12 frames"; done
-exits 2 render one.yaml --frames all; err_has '--frames all: one.yaml has no animation; `animation: {frames: 48}` makes one'
+for asked in 1 1-3 2-; do
+    exits 2 render one.yaml --frames $asked; err_has "--frames $asked: one.yaml has no animation; \`animation: {frames: 48}\` makes one"
+done
+# a still among animations is one picture
+exits 0 render -q "${small[@]}" one.yaml -o plain.png
+for asked in all 1- all:5; do
+    exits 0 render "${small[@]}" one.yaml view.yaml --frames $asked -o mixed/ --log mixed.log
+    ok "$asked: a still under its plain name" cmp mixed/one.png plain.png; is_png mixed/view-0001.png
+    missing mixed/one-0001.png; ok "and the animation" [ "$(ls mixed/view-* | wc -l)" -eq "$([ $asked = all:5 ] && echo 3 || echo 12)" ]
+    ok "without a frame in the log" [ "$(grep -c '"frame"' mixed.log)" -eq "$(ls mixed/view-* | wc -l)" ]
+    rm -r mixed mixed.log
+done
+exits 0 render -q "${small[@]}" one.yaml --frames all -o 'still-{name}-{frame}-%03d.png'; ok "in a pattern it is frame 1" cmp still-one-1-001.png plain.png
+exits 2 render one.yaml --frames all -o plain.png; err_has 'is one file for many frames'
+rm -f one.png; exits 0 render -q "${small[@]}" one.yaml
+exits 0 render "${small[@]}" one.yaml --frames all --skip-unchanged; err_has 'unchanged one.png'
 missing one-0001.png
 exits 2 render one.yaml view.yaml --frames 1 "${small[@]}" -o both/; is_png both/view-0001.png; err_has '1 rendered, 1 failed'
 

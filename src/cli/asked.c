@@ -132,13 +132,16 @@ bool asked_region(const struct option_value *option, const char *scene, const st
 unsigned *asked_frames(const struct option_value *option, const char *scene, unsigned total, size_t *count) {
     const unsigned first = option->given ? option->number[0] : 1,
                    step = option->given ? option->number[2] : 1;
-    const unsigned last = !option->given ? 1 : option->number[1] ? option->number[1] : total;
-    if (option->given && total == 0) {
+    const bool all = option->given && first == 1 && option->number[1] == 0, still = total == 0;
+    const unsigned last = !option->given || (all && still) ? 1
+                          : option->number[1]              ? option->number[1]
+                                                           : total;
+    if (option->given && still && !all) {
         say_error("--frames %s: %s has no animation; `animation: {frames: 48}` makes one", option->text,
                   scene);
         return NULL;
     }
-    if (option->given && (first > total || last > total)) {
+    if (option->given && !still && (first > total || last > total)) {
         say_error("--frames %s: %s has %u frame%s", option->text, scene, total, total == 1 ? "" : "s");
         return NULL;
     }

@@ -21,8 +21,8 @@ void asked_settings(const struct option_value *option, struct monge_settings *se
 bool asked_region(const struct option_value *option, const char *scene, const struct monge_settings *settings,
                   struct monge_region *region);
 
-/* The frames that --frames asks for, of an animation of `total`; without it the first alone. NULL, with the reason
- * told, where they are not there. To be freed. */
+/* The frames that --frames asks for, of an animation of `total`; without it the first alone. All that a still, of which
+ * the total is 0, has is one. NULL, with the reason told, where they are not there. To be freed. */
 unsigned *asked_frames(const struct option_value *option, const char *scene, unsigned total, size_t *count);
 
 #endif

@@ -199,7 +199,9 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                  "each a with each b, b first. Commas within brackets or quotes do not split. In a "
                  "pattern {a} stands for the value of a; without -o pictures are called "
                  "NAME-a=1-b=x.png.",
-                 "--frames renders frames of a scene with an `animation`; without it, the first. In "
+                 "--frames renders frames of a scene with an `animation`; without it, the first. With "
+                 "--frames all a "
+                 "scene without one is rendered too, under its plain name, {frame} being 1. In "
                  "a pattern {frame} is the number, with leading zeros; so is one %d or %04d, and %% "
                  "is a %. Without -o, and in a folder, pictures are called NAME-0001.png.",
                  "--aov writes auxiliary passes beside the picture: NAME.object.png and so on, and "

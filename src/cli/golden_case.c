@@ -186,7 +186,7 @@ static void run_frames(struct subject *s) {
     s->digits = pattern_digits(total);
     for (size_t i = 0; i < count && !interrupt_pending(); i++) {
         const double begun = clock_seconds();
-        s->frame = option->given ? frames[i] : 0;
+        s->frame = option->given && total > 0 ? frames[i] : 0;
         struct golden_case *c = add_case(s);
         listen_begin(&listener);
         const enum status status =

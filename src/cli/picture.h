@@ -9,7 +9,7 @@ enum outcome { PICTURE_FAILED, PICTURE_RENDERED, PICTURE_UNCHANGED /* the file w
 struct picture {
     const char *scene; /* as the user knows it; "-" for the standard streams, here and in output */
     char *output;      /* owned */
-    unsigned frame;    /* 0: --frames is not given */
+    unsigned frame;    /* 0: --frames is not given, or the scene is a still */
     const struct monge_define *defines;
     size_t define_count;
     enum outcome outcome;

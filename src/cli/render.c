@@ -116,10 +116,11 @@ static enum status render_frame(struct unit *unit, struct load *load, unsigned f
 static enum status render_frames(struct unit *unit, struct load *load, const unsigned *frames, char **paths,
                                  size_t count, double begun) {
     enum status worst = STATUS_YES;
+    const bool numbered = unit->work->plan.frames && monge_scene_frames(load->scene) > 0;
     unsigned at = frames[0];
     progress_pictures(&unit->progress, count);
     for (size_t i = 0; i < count && !interrupt_pending(); i++) {
-        add_picture(unit, paths[i], unit->work->plan.frames ? frames[i] : 0);
+        add_picture(unit, paths[i], numbered ? frames[i] : 0);
         const enum status status =
             end_picture(unit, render_frame(unit, load, frames[i], &at, i == 0 ? begun : clock_seconds()));
         if (status > worst) worst = status;
