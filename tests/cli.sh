@@ -4,6 +4,7 @@
 
 monge=$(realpath "${1:-build/monge}")
 [ -x "$monge" ] || { echo "cli: no program $monge" >&2; exit 1; }
+sources=$(realpath "$(dirname "$0")/../src")
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work" || exit 1
@@ -120,6 +121,15 @@ ok 'numbers by their value, words as a shell takes them' \
 exits 2 version x; err_has 'version: expected nothing more'
 exits 0 --help; out_has 'usage: monge COMMAND'; out_has 'render SCENE...'; no_err
 exits 0 -h; out_has 'usage: monge COMMAND'
+exits 0 help render; cp out expected
+for form in --help -h; do exits 0 $form render; ok "$form render is help render" cmp out expected; done
+ok "its end are the examples" [ "$(tail -n 1 expected)" = '`render` is also a word of scenes: `monge help language render`.' ]
+ok "and no page follows" [ "$(tail -n 3 expected | head -n 1)" = '      from a program to a program' ]
+exits 0 help language render; out_has 'depth'; ok "which is not that of the command" sh -c '! grep -q usage: out'
+exits 0 --help material; cp out expected; exits 0 help language material; ok "others have one" cmp out expected
+exits 2 --help rendr; err_has 'did you mean `render`?'
+exits 2 help language rendr; err_has 'did you mean `render`?'
+exits 2 help language render more; err_has 'help: expected one word, found `more` as well'
 exits 0 help; out_has 'usage: monge COMMAND'
 exits 2; err_has 'usage: monge COMMAND'; no_out
 for command in render check info test accept fmt explain import schema version help; do
@@ -139,7 +149,7 @@ out_has 'The key `material` of object:'; no_err
 exits 0 help radius; out_has 'The key `radius` of sphere, disc, cylinder:'; out_has 'The radius of the base.'
 exits 0 help eye; out_has 'default: in front of the scene'; ok "one kind has it" [ "$(grep -c 'The key' out)" -eq 1 ]
 exits 0 help ellipsoid; out_has 'not there yet'
-exits 0 help render; out_has '`render` is also a word of scenes'; out_has 'shading: `phong`, `diffuse`, `signature`; default: phong'
+exits 0 help render; out_has '`render` is also a word of scenes'; exits 0 help language render; out_has 'shading: `phong`, `diffuse`, `signature`; default: phong'
 exits 0 help look_at; exits 0 help rotate; out_has 'Its keys; exactly one of those with a * must be given:'; out_has 'x *: number, degrees'
 exits 2 help raduis; err_has 'no command and no word of scenes `raduis`; did you mean `radius`?'; no_out
 exits 2 help kone; err_has 'did you mean `cone`?'
@@ -178,6 +188,9 @@ exits 0 help --man; out_has '.TH MONGE 1'; out_has '.SH EXIT STATUS'; out_has '.
 for option in output size samples region shading shadow no\\-shadows depth bits encoding aov threads stats progress format check quiet define frames limit untrusted; do
     out_has "\\-\\-$option"
 done
+out_has '.SH FILES'; out_has '.NAME.png.partial'; out_has 'monge\-test/'; out_has '.SH ENVIRONMENT'; out_has 'in share/doc/monge,'
+for variable in $(grep -rhoE 'getenv\("[A-Z_]+' "$sources" | cut -d'"' -f2 | sort -u); do out_has ".B $variable"; done
+ok "no folder that is not installed" sh -c '! grep -q grammar/ out'
 have man && ok "the manual page has no roff warnings" [ -z "$(LC_ALL=C.UTF-8 man --warnings -l out 2>&1 >/dev/null)" ]
 exits 0 help --completion bash; cp out completion.bash
 ok "the bash completion parses" bash -n completion.bash

@@ -48,6 +48,9 @@
     "paths "                                                                                                 \
     "are from the current folder. "
 
+/* Where `make install` puts it, below a prefix that the program does not know. */
+#define IN_DOCUMENTS(file) file ", in share/doc/monge,"
+
 /* The words of a choice stand in the order of the enum that they become. */
 const struct option_row OPTION_TABLE[OPTIONS] = {
     [OPTION_OUTPUT] = {"output", 'o', VALUE_FILE, IN_RENDER, "FILE|DIR/|PATTERN", 0, 0,
@@ -195,8 +198,9 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                  "pictures into a folder, which is made where it is missing, and in a pattern "
                  "{name} stands for NAME; folders of a pattern are made too. A picture is complete "
                  "under its name, or what was there before stays.",
-                 "-D sets parameters of the scene. Lists make a sweep: -D a=1,2 -D b=x,y renders "
-                 "each a with each b, b first. Commas within brackets or quotes do not split. In a "
+                 "-D sets parameters of the scene. Lists make a sweep: -D a=1,2 -D b=x,y renders a=1 "
+                 "with b=x, a=1 with b=y, a=2 with b=x, a=2 with b=y. Commas within brackets or quotes do "
+                 "not split. In a "
                  "pattern {a} stands for the value of a; without -o pictures are called "
                  "NAME-a=1-b=x.png.",
                  "--frames renders frames of a scene with an `animation`; without it, the first. With "
@@ -207,7 +211,8 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                  "--aov writes auxiliary passes beside the picture: NAME.object.png and so on, and "
                  "NAME.depth.pfm. They tell of each pixel which object and which material the ray "
                  "through its centre meets first, how far in front of the eye, with which normal, and "
-                 "which point lights reach it there. The manual has what is in the files.",
+                 "which point lights reach it there. " IN_DOCUMENTS(
+                     "manual.md") " tells what is in the files.",
                  "-o - is standard output.",
                  "--jobs scenes are rendered at once, each on --threads threads; messages, --log and "
                  "--stats keep the order of the batch, and a line at the end counts what has become of "
@@ -318,7 +323,8 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                  "to take. Orphans are looked for where there is a root, or where all operands are folders, "
                  "patterns or "
                  "lists.",
-                 "Exit status 1 where anything is not the same. grammar/testing.md is the page about it.",
+                 "Exit status 1 where anything is not the same. " IN_DOCUMENTS(
+                     "testing.md") " has all of it.",
                  LIMITS_TEXT},
             .examples = {{"monge test scenes/ --golden goldens/", "all scenes of a folder"},
                          {"monge test scenes/ --golden goldens/ --update-only-failed",
@@ -491,12 +497,14 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
     [COMMAND_HELP] =
         {
             .name = "help",
-            .operands = "[COMMAND|WORD]",
+            .operands = "[COMMAND|WORD|language WORD]",
             .doc = "tell how to use monge, or what a word of a scene means",
             .text = {"Without a word: what there is. The manual page and the completion scripts come "
                      "from the same table as this text. A word is any that a scene may have as a key, "
                      "the kind of one of its mappings, or what an expression may call or name; `language`, "
-                     "`functions` and `presets` list what there is."},
+                     "`functions` and `presets` list what there is. Where a command is called so too, "
+                     "`language WORD` is "
+                     "the word of scenes. `monge --help` may stand for `monge help`."},
             .examples = {{"monge help render", "the options of render"},
                          {"monge help language", "a scene to begin with, and the kinds of mappings"},
                          {"monge help material", "the keys of a material, with types and defaults"},
@@ -558,7 +566,13 @@ static enum status run(const struct arguments *args) {
     return row->run(args);
 }
 
+/* monge --help COMMAND, which may be any word of `monge help`. */
+static bool asks_for_help(int argc, char **argv) {
+    return argc > 1 && (strcmp(argv[0], "--help") == 0 || strcmp(argv[0], "-h") == 0) && argv[1][0] != '-';
+}
+
 enum status command_run(int argc, char **argv) {
+    if (asks_for_help(argc, argv)) argv[0] = "help";
     const bool alone = argc == 0 || argv[0][0] == '-';
     const enum command_id command = alone ? COMMAND_NONE : command_find(argv[0]);
     if (!alone && command == COMMAND_NONE) return command_unknown(argv[0]);
