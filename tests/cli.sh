@@ -194,7 +194,7 @@ ok "no folder that is not installed" sh -c '! grep -q grammar/ out'
 have man && ok "the manual page has no roff warnings" [ -z "$(LC_ALL=C.UTF-8 man --warnings -l out 2>&1 >/dev/null)" ]
 exits 0 help --completion bash; cp out completion.bash
 ok "the bash completion parses" bash -n completion.bash
-complete_bash() { bash --norc -c 'source ./completion.bash; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _monge; printf "%s\n" "${COMPREPLY[@]}"' bash "$@" | sort | tr '\n' ' '; }
+complete_bash() { bash --norc -c 'source ./completion.bash; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); COMP_LINE=$*; COMP_POINT=${#COMP_LINE}; _monge; printf "%s\n" "${COMPREPLY[@]}"' bash "$@" | sort | tr '\n' ' '; }
 ok "bash completes a command" [ "$(complete_bash monge re)" = 'render ' ]
 ok "bash completes a word of scenes" [ "$(complete_bash monge help mat)" = 'material ' ]
 ok "bash completes nothing after schema" [ "$(complete_bash monge schema '')" = ' ' ]
@@ -204,10 +204,40 @@ ok "bash completes a pass" [ "$(complete_bash monge render --aov d)" = 'depth ' 
 ok "bash completes a choice after =" [ "$(complete_bash monge render --shading = d)" = 'diffuse ' ]
 ok "bash completes a code" [ "$(complete_bash monge explain no-li)" = 'no-light ' ]
 ok "bash completes a scene" [ "$(complete_bash monge check w)" = 'with space.yaml wrong.yaml ' ]
+mkdir -p tab/folder tab/goldens; touch tab/{a.png,b.PNG,s.yaml,t.yml,list.txt,'two words.txt'}
+tab() { (cd tab && . ../completion.bash && COMP_WORDS=("$@") COMP_CWORD=$(($# - 1)) COMP_LINE=$* && COMP_POINT=${#COMP_LINE} && _monge && printf '%s\n' "${COMPREPLY[@]}") | sort -u | tr '\n' '|'; }
+offers() { ok "bash completes monge ${*:2}" [ "$(tab monge "${@:2}")" = "$1" ]; }
+offers 'a.png|b.PNG|folder|goldens|' diff ''
+offers 'folder|goldens|s.yaml|t.yml|' render ''
+offers '@list.txt |' test @li
+offers '@two\ words.txt |' fmt @tw
+offers '@folder/|' info @f
+offers '|' accept ''
+offers 'folder|goldens|' accept --golden ''
+offers 'goldens|' test --golden = go
+offers 'a.png|b.PNG|folder|goldens|' diff --mask ''
+offers 'memory_bytes=|' check --limit m
+offers '|' check --limit memory_bytes = ''
+offers '|' render -D ''
+offers 'object,depth|' render --aov object,d
+offers 'mae,max,ssim|' diff --metric mae,max,ss
+offers 'a.png|b.PNG|folder|goldens|list.txt|s.yaml|t.yml|two words.txt|' import ''
+exits 0 help --completion=zsh; out_has '_files -g "*.(png|PNG)"'; out_has ':DIR:_files -/'; out_has ':aov:_values -s , word object '; out_has 'compadd -S = - file_bytes '
 exits 0 help --completion=zsh; out_has '#compdef monge'
 have zsh && ok "the zsh completion parses" zsh -n out
 exits 0 help --completion fish; out_has 'complete -c monge'
-have fish && ok "the fish completion parses" fish -n out
+if have fish; then
+    cp out completion.fish; ok "the fish completion parses" fish -n out
+    offers() { ok "fish completes monge $2" [ "$(cd tab && fish --no-config -c "source ../completion.fish; complete -C 'monge $2'" | cut -f1 | sort | tr '\n' '|')" = "$1" ]; }
+    offers 'a.png|b.PNG|folder/|goldens/|' 'diff '
+    offers 'folder/|goldens/|s.yaml|t.yml|' 'render '
+    offers '@list.txt|' 'test @li'
+    offers '' 'accept '
+    offers 'folder/|goldens/|' 'accept --golden '
+    offers '--golden=goldens/|' 'test --golden=go'
+    offers 'memory_bytes=|' 'check --limit m'
+    offers 'object,depth|' 'render --aov object,d'
+fi
 exits 2 help --completion tcsh; err_has '--completion: expected bash, zsh or fish, found `tcsh`'
 
 # ---- Usage errors: exit 2, say which, point to help, render nothing ----

@@ -254,6 +254,7 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                          {"monge render orbit.yaml --frames all -o orbit/", "orbit/orbit-0001.png and so on"},
                          {"generate | monge render - | display", "from a program to a program"}},
             .operand = "scene",
+            .argument = ARGUMENT_SCENE,
             .run = render_command,
         },
     [COMMAND_CHECK] =
@@ -277,6 +278,7 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                          {"monge check --format sarif scenes/*.yaml > monge.sarif",
                           "for what shows SARIF beside the code"}},
             .operand = "scene",
+            .argument = ARGUMENT_SCENE,
             .run = check_command,
         },
     [COMMAND_INFO] =
@@ -298,6 +300,7 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
             .examples = {{"monge info king.yaml", "what king.yaml consists of"},
                          {"monge info --json king.yaml | jq .camera", "the camera that it is framed by"}},
             .operand = "scene",
+            .argument = ARGUMENT_SCENE,
             .run = info_command,
         },
     [COMMAND_TEST] =
@@ -333,6 +336,7 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                           "before a commit, with `root` in golden.yaml"},
                          {"monge test --golden goldens/ --junit junit.xml --json -",
                           "for servers and programs"}},
+            .argument = ARGUMENT_SCENE,
             .run = test_command,
         },
     [COMMAND_ACCEPT] =
@@ -364,6 +368,7 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                      "Without a code: all codes, each with what it means in a sentence."},
             .examples = {{"monge explain unknown-key", "the story behind error[unknown-key]"},
                          {"monge explain | grep camera", "the codes that have to do with the camera"}},
+            .argument = ARGUMENT_CODE,
             .run = explain_command,
         },
     [COMMAND_IMPORT] =
@@ -380,6 +385,7 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
             .examples = {{"monge import cover.yml -o cover.yaml", "writes cover.yaml"},
                          {"monge import cover.yml | monge render - -o cover.png", "straight to a picture"}},
             .operand = "scene",
+            .argument = ARGUMENT_FILE,
             .run = import_command,
         },
     [COMMAND_FMT] =
@@ -402,6 +408,7 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                           "a step of a build: 1 where something is not formatted"},
                          {"monge fmt - < king.yaml | diff king.yaml -", "what it would change"}},
             .operand = "scene",
+            .argument = ARGUMENT_SCENE,
             .run = fmt_command,
         },
     [COMMAND_DIFF] =
@@ -471,6 +478,7 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                          {"monge diff a.png b.png --ignore 0,0,120,20 --ignore mask.png",
                           "but for these pixels"}},
             .operand = "picture",
+            .argument = ARGUMENT_PICTURE,
             .run = diff_command,
         },
     [COMMAND_SCHEMA] =
@@ -510,9 +518,25 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                          {"monge help material", "the keys of a material, with types and defaults"},
                          {"monge help presets", "the materials that come with the program"},
                          {"source <(monge help --completion bash)", "completion in this shell"}},
+            .argument = ARGUMENT_HELP,
             .run = help_command,
         },
 };
+
+/* What help calls a value tells what it is. */
+enum argument option_argument(enum option_id option) {
+    const struct option_row *row = &OPTION_TABLE[option];
+    switch (row->kind) {
+    case VALUE_CHOICE: return ARGUMENT_WORDS;
+    case VALUE_CHOICES: return ARGUMENT_LIST;
+    case VALUE_AREA: return ARGUMENT_PICTURE;
+    case VALUE_PAIR: return option == OPTION_LIMIT ? ARGUMENT_LIMIT : ARGUMENT_NONE;
+    case VALUE_FILE:
+        if (strcmp(row->value, "MASK") == 0) return ARGUMENT_PICTURE;
+        return strcmp(row->value, "DIR") == 0 ? ARGUMENT_FOLDER : ARGUMENT_FILE;
+    default: return ARGUMENT_NONE;
+    }
+}
 
 enum command_id command_find(const char *name) {
     for (enum command_id c = COMMAND_NONE + 1; c < COMMANDS; c++)
