@@ -254,6 +254,19 @@ cp cut.png cut2.png
 exits 2 diff grey.png absent.png; err_has 'cannot read absent.png: No such file'; no_out
 exits 2 diff grey.png cut.png; err_has 'cannot use cut.png: the file is cut off'
 exits 2 diff cut.png cut2.png; err_has 'cannot use cut.png'
+if command -v python3 >/dev/null; then # pixels that cannot be inflated, with the right check sum
+    python3 -c '
+import struct, zlib
+data = open("grey.png", "rb").read()
+at = data.index(b"IDAT") - 4
+size = struct.unpack(">I", data[at:at + 4])[0]
+bad = b"IDAT" + b"\xff" * size
+open("bad.png", "wb").write(data[:at + 4] + bad + struct.pack(">I", zlib.crc32(bad)) + data[at + 12 + size:])'
+    cp bad.png bad2.png
+    exits 2 diff grey.png bad.png; err_has 'cannot use bad.png: it is damaged'
+    exits 0 diff bad.png bad2.png; out_has 'same: ' # as its help says
+    "$monge" help diff | tr '\n' ' ' >out; out_has 'Files with the same bytes are the same without being decoded'
+fi
 exits 2 diff grey.png none; err_has 'error[bad-picture]: cannot use none: the file is empty'
 exits 2 diff grey.png empty.yaml; err_has 'it is no PNG file'
 exits 2 diff /dev/zero /dev/zero; err_has 'cannot use /dev/zero: it is no PNG file' # and not: it is too large

@@ -426,11 +426,13 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                  "without being decoded: that the pixels of both are damaged is not told.",
                  "Of two folders all PNG files below them are compared by their names, several at once; what "
                  "is "
-                 "hidden and links to folders are passed by. Prints a line for each that differs or that one "
-                 "folder alone has, and one that counts; --out is then a folder, where each that differs "
-                 "gets its "
-                 "heat map under its name, and exit status 1 means that something differs or is missing. A "
-                 "picture and a folder: the picture of that name in the folder.",
+                 "hidden and links to folders are passed by. Prints a line for each that differs, beyond the "
+                 "limits where "
+                 "some are given, or that one folder alone has, and one that counts; exit status 1 means "
+                 "that "
+                 "there are such. --out is then a folder, where each that is not the same gets its heat map "
+                 "under "
+                 "its name. A picture and a folder: the picture of that name in the folder.",
                  "With --max-delta pixels differ where a channel does by more than that, on a scale from 0 "
                  "to 1; "
                  "with --max-pixels that many, or that part, may; with both, that many by more than that. "
