@@ -171,6 +171,12 @@ echo '# a comment' >>one.yaml; skip; wrote "the scene"
 echo 'params: {r: 3}' >lib/defs.yaml; skip; wrote "what it includes"
 skip --samples 2; ok "options" grep -q ^wrote err; skip; wrote "other options"
 skip -D a=2; ok "a parameter" grep -q ^wrote err; skip -D a=2; err_has 'unchanged one.png'; skip; wrote "without it"
+skip -D a=2.50 --shadow 1; ok "numbers" grep -q ^wrote err
+for same in '-D a=2.5 --shadow 1.0' '-D a=2.500 --no-shadows' '-D a=2.5 --shadow 1e0'; do
+    skip $same; ok "$same is the same" grep -q '^unchanged one.png' err
+done
+for other in 2.05 2.5e0 '2.5 + 0' 25 250; do skip -D "a=$other" --shadow 1; ok "$other is another" grep -q ^wrote err; done
+skip -D a=25 --shadow 1; skip; wrote "other numbers"
 head -c -1 one.png >cut; mv cut one.png; skip; wrote "a torn picture"
 cp one.png good.png
 rm lib/defs.yaml; skip; ok "what has gone is an error" [ $status -eq 1 ]; same one.png good.png
@@ -202,6 +208,51 @@ PYTHON
     done
     python3 edit.py nothing; skip; err_has 'unchanged one.png'
 else left_out "edited pictures: no python3"; fi
+
+# what would be rendered, and why: nothing is written
+files() { find . ! -name out ! -name err -type f -printf '%p %T@ %s\n' -o -type d -print | sort; }
+foresee() { files >../before; run render "${small[@]}" --dry-run "$@"; files | cmp -s - ../before || ok "nothing is written: $*" false; }
+foresees() { ok "foreseen: $1" grep -qxF -e "one.yaml -> one.png: $1" out; ok "exit 0" [ $status -eq 0 ]; }
+rm -f one.png; skip
+foresee one.yaml; foresees 'would be rendered'; no_err
+for option in --skip-unchanged --resume; do
+    foresee one.yaml $option; foresees unchanged
+    foresee one.yaml $option --samples 2; foresees 'would be rendered: its options differ'
+    foresee one.yaml $option -D a=2; foresees 'would be rendered: its options differ'
+    foresee one.yaml $option --aov depth; foresees 'would be rendered: --aov is given'
+done
+echo '# another comment' >>one.yaml; foresee one.yaml --skip-unchanged; foresees 'would be rendered: its text differs'
+skip; echo 'params: {r: 2.5}' >lib/defs.yaml; foresee one.yaml --skip-unchanged; foresees 'would be rendered: its text differs'
+skip; cp one.png whole.png; head -c -1 whole.png >one.png; foresee one.yaml --skip-unchanged; foresees 'would be rendered: it is damaged'
+if have python3; then
+    for row in 'pixel:it is damaged' 'program:the program differs'; do
+        cp whole.png one.png; python3 edit.py "${row%%:*}"; foresee one.yaml --skip-unchanged; foresees "would be rendered: ${row#*:}"
+    done
+fi
+"$monge" diff -q whole.png whole.png --out one.png; foresee one.yaml --skip-unchanged
+foresees 'would be rendered: it does not say what it was made of'
+rm one.png; foresee one.yaml --skip-unchanged; foresees 'would be rendered: it is not there'
+mv whole.png one.png
+foresee one.yaml two.yaml -D a=1,2 -o 'new/{name}/{a}.png' --resume --log new.log --stats new.json --progress always
+ok "in their order" diff out - <<'END'
+one.yaml with a=1 -> new/one/1.png: would be rendered: it is not there
+one.yaml with a=2 -> new/one/2.png: would be rendered: it is not there
+two.yaml with a=1 -> new/two/1.png: would be rendered: it is not there
+two.yaml with a=2 -> new/two/2.png: would be rendered: it is not there
+END
+no_err
+foresee one.yaml two.yaml --skip-unchanged; err_has '1 would be rendered, 1 unchanged'
+exits 0 render "${small[@]}" two.yaml --frames 1-2 --skip-unchanged -q
+foresee two.yaml --frames all --skip-unchanged
+ok "frames" diff out - <<'END'
+two.yaml -> two-0001.png: unchanged
+two.yaml -> two-0002.png: unchanged
+two.yaml -> two-0003.png: would be rendered: it is not there
+END
+rm two-*.png
+foresee absent.yaml one.yaml; ok "a scene that is not there" [ $status -eq 2 ]; err_has 'cannot read absent.yaml: No such file'; err_has '1 would be rendered, 1 failed'
+foresee one.yaml -n -q; ok 'quiet' [ ! -s out ]; no_err
+exits 2 render one.yaml two.yaml -n -o same.png; err_has 'is one file for 2 scenes'
 exits 0 render "${small[@]}" one.yaml --skip-unchanged --aov depth; ok "passes are made again" grep -q ^wrote err; there one.depth.pfm
 exits 0 render "${small[@]}" two.yaml --frames 1-2 --skip-unchanged; err_lacks unchanged
 exits 0 render "${small[@]}" two.yaml --frames all --skip-unchanged --log log --stats s.json

@@ -4,6 +4,7 @@
 
 monge=$(realpath "${1:-build/monge}")
 [ -x "$monge" ] || { echo "cli: no program $monge" >&2; exit 1; }
+sources=$(realpath "$(dirname "$0")/../src")
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work" || exit 1
@@ -114,9 +115,21 @@ for form in -V version; do exits 0 $form; ok "$form is --version" cmp out expect
 printf 'params: {a: 0, b: 0}\nscene: [{sphere: {radius: 1 + a + b}}]\n' >two-params.yaml
 exits 0 render -q two-params.yaml --size 9x8 --no-shadows --depth 2 -D b=2 -D a=1 -o asked.png
 ok 'a picture tells its options' grep -qa -e '--size 9x8 --shadow 1 --depth 2 -D a=1 -D b=2' asked.png
+exits 0 render -q two-params.yaml --size 09x8 --samples 02 --region 0,00,9,8 --shadow .50 -D a=-0.20 -D 'b=1 + 2' -o asked.png
+ok 'numbers by their value, words as a shell takes them' \
+    grep -qa -e "--size 9x8 --samples 2 --region 0,0,9,8 --shadow 0.5 -D a=-0.2 -D 'b=1 + 2'" asked.png
 exits 2 version x; err_has 'version: expected nothing more'
 exits 0 --help; out_has 'usage: monge COMMAND'; out_has 'render SCENE...'; no_err
 exits 0 -h; out_has 'usage: monge COMMAND'
+exits 0 help render; cp out expected
+for form in --help -h; do exits 0 $form render; ok "$form render is help render" cmp out expected; done
+ok "its end are the examples" [ "$(tail -n 1 expected)" = '`render` is also a word of scenes: `monge help language render`.' ]
+ok "and no page follows" [ "$(tail -n 3 expected | head -n 1)" = '      from a program to a program' ]
+exits 0 help language render; out_has 'depth'; ok "which is not that of the command" sh -c '! grep -q usage: out'
+exits 0 --help material; cp out expected; exits 0 help language material; ok "others have one" cmp out expected
+exits 2 --help rendr; err_has 'did you mean `render`?'
+exits 2 help language rendr; err_has 'did you mean `render`?'
+exits 2 help language render more; err_has 'help: expected one word, found `more` as well'
 exits 0 help; out_has 'usage: monge COMMAND'
 exits 2; err_has 'usage: monge COMMAND'; no_out
 for command in render check info test accept fmt explain import schema version help; do
@@ -136,7 +149,7 @@ out_has 'The key `material` of object:'; no_err
 exits 0 help radius; out_has 'The key `radius` of sphere, disc, cylinder:'; out_has 'The radius of the base.'
 exits 0 help eye; out_has 'default: in front of the scene'; ok "one kind has it" [ "$(grep -c 'The key' out)" -eq 1 ]
 exits 0 help ellipsoid; out_has 'not there yet'
-exits 0 help render; out_has '`render` is also a word of scenes'; out_has 'shading: `phong`, `diffuse`, `signature`; default: phong'
+exits 0 help render; out_has '`render` is also a word of scenes'; exits 0 help language render; out_has 'shading: `phong`, `diffuse`, `signature`; default: phong'
 exits 0 help look_at; exits 0 help rotate; out_has 'Its keys; exactly one of those with a * must be given:'; out_has 'x *: number, degrees'
 exits 2 help raduis; err_has 'no command and no word of scenes `raduis`; did you mean `radius`?'; no_out
 exits 2 help kone; err_has 'did you mean `cone`?'
@@ -175,10 +188,13 @@ exits 0 help --man; out_has '.TH MONGE 1'; out_has '.SH EXIT STATUS'; out_has '.
 for option in output size samples region shading shadow no\\-shadows depth bits encoding aov threads stats progress format check quiet define frames limit untrusted; do
     out_has "\\-\\-$option"
 done
+out_has '.SH FILES'; out_has '.NAME.png.partial'; out_has 'monge\-test/'; out_has '.SH ENVIRONMENT'; out_has 'in share/doc/monge,'
+for variable in $(grep -rhoE 'getenv\("[A-Z_]+' "$sources" | cut -d'"' -f2 | sort -u); do out_has ".B $variable"; done
+ok "no folder that is not installed" sh -c '! grep -q grammar/ out'
 have man && ok "the manual page has no roff warnings" [ -z "$(LC_ALL=C.UTF-8 man --warnings -l out 2>&1 >/dev/null)" ]
 exits 0 help --completion bash; cp out completion.bash
 ok "the bash completion parses" bash -n completion.bash
-complete_bash() { bash --norc -c 'source ./completion.bash; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _monge; printf "%s\n" "${COMPREPLY[@]}"' bash "$@" | sort | tr '\n' ' '; }
+complete_bash() { bash --norc -c 'source ./completion.bash; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); COMP_LINE=$*; COMP_POINT=${#COMP_LINE}; _monge; printf "%s\n" "${COMPREPLY[@]}"' bash "$@" | sort | tr '\n' ' '; }
 ok "bash completes a command" [ "$(complete_bash monge re)" = 'render ' ]
 ok "bash completes a word of scenes" [ "$(complete_bash monge help mat)" = 'material ' ]
 ok "bash completes nothing after schema" [ "$(complete_bash monge schema '')" = ' ' ]
@@ -188,10 +204,40 @@ ok "bash completes a pass" [ "$(complete_bash monge render --aov d)" = 'depth ' 
 ok "bash completes a choice after =" [ "$(complete_bash monge render --shading = d)" = 'diffuse ' ]
 ok "bash completes a code" [ "$(complete_bash monge explain no-li)" = 'no-light ' ]
 ok "bash completes a scene" [ "$(complete_bash monge check w)" = 'with space.yaml wrong.yaml ' ]
+mkdir -p tab/folder tab/goldens; touch tab/{a.png,b.PNG,s.yaml,t.yml,list.txt,'two words.txt'}
+tab() { (cd tab && . ../completion.bash && COMP_WORDS=("$@") COMP_CWORD=$(($# - 1)) COMP_LINE=$* && COMP_POINT=${#COMP_LINE} && _monge && printf '%s\n' "${COMPREPLY[@]}") | sort -u | tr '\n' '|'; }
+offers() { ok "bash completes monge ${*:2}" [ "$(tab monge "${@:2}")" = "$1" ]; }
+offers 'a.png|b.PNG|folder|goldens|' diff ''
+offers 'folder|goldens|s.yaml|t.yml|' render ''
+offers '@list.txt |' test @li
+offers '@two\ words.txt |' fmt @tw
+offers '@folder/|' info @f
+offers '|' accept ''
+offers 'folder|goldens|' accept --golden ''
+offers 'goldens|' test --golden = go
+offers 'a.png|b.PNG|folder|goldens|' diff --mask ''
+offers 'memory_bytes=|' check --limit m
+offers '|' check --limit memory_bytes = ''
+offers '|' render -D ''
+offers 'object,depth|' render --aov object,d
+offers 'mae,max,ssim|' diff --metric mae,max,ss
+offers 'a.png|b.PNG|folder|goldens|list.txt|s.yaml|t.yml|two words.txt|' import ''
+exits 0 help --completion=zsh; out_has '_files -g "*.(png|PNG)"'; out_has ':DIR:_files -/'; out_has ':aov:_values -s , word object '; out_has 'compadd -S = - file_bytes '
 exits 0 help --completion=zsh; out_has '#compdef monge'
 have zsh && ok "the zsh completion parses" zsh -n out
 exits 0 help --completion fish; out_has 'complete -c monge'
-have fish && ok "the fish completion parses" fish -n out
+if have fish; then
+    cp out completion.fish; ok "the fish completion parses" fish -n out
+    offers() { ok "fish completes monge $2" [ "$(cd tab && fish --no-config -c "source ../completion.fish; complete -C 'monge $2'" | cut -f1 | sort | tr '\n' '|')" = "$1" ]; }
+    offers 'a.png|b.PNG|folder/|goldens/|' 'diff '
+    offers 'folder/|goldens/|s.yaml|t.yml|' 'render '
+    offers '@list.txt|' 'test @li'
+    offers '' 'accept '
+    offers 'folder/|goldens/|' 'accept --golden '
+    offers '--golden=goldens/|' 'test --golden=go'
+    offers 'memory_bytes=|' 'check --limit m'
+    offers 'object,depth|' 'render --aov object,d'
+fi
 exits 2 help --completion tcsh; err_has '--completion: expected bash, zsh or fish, found `tcsh`'
 
 # ---- Usage errors: exit 2, say which, point to help, render nothing ----
@@ -494,7 +540,22 @@ for bad in 0 0-3 3-2 -3 x 1-x 1:0 1: all: 1-2-3 '' 1000001 allx; do
     exits 2 render view.yaml --frames "$bad"; err_has "--frames: expected N, A-B, A- or all, perhaps with :STEP, from 1, found \`$bad\`"
 done
 for bad in 13 12-13 13- 13-14; do exits 2 render view.yaml --frames $bad; err_has "--frames $bad: view.yaml has 12 frames"; done
-exits 2 render one.yaml --frames all; err_has '--frames all: one.yaml has no animation; `animation: {frames: 48}` makes one'
+for asked in 1 1-3 2-; do
+    exits 2 render one.yaml --frames $asked; err_has "--frames $asked: one.yaml has no animation; \`animation: {frames: 48}\` makes one"
+done
+# a still among animations is one picture
+exits 0 render -q "${small[@]}" one.yaml -o plain.png
+for asked in all 1- all:5; do
+    exits 0 render "${small[@]}" one.yaml view.yaml --frames $asked -o mixed/ --log mixed.log
+    ok "$asked: a still under its plain name" cmp mixed/one.png plain.png; is_png mixed/view-0001.png
+    missing mixed/one-0001.png; ok "and the animation" [ "$(ls mixed/view-* | wc -l)" -eq "$([ $asked = all:5 ] && echo 3 || echo 12)" ]
+    ok "without a frame in the log" [ "$(grep -c '"frame"' mixed.log)" -eq "$(ls mixed/view-* | wc -l)" ]
+    rm -r mixed mixed.log
+done
+exits 0 render -q "${small[@]}" one.yaml --frames all -o 'still-{name}-{frame}-%03d.png'; ok "in a pattern it is frame 1" cmp still-one-1-001.png plain.png
+exits 2 render one.yaml --frames all -o plain.png; err_has 'is one file for many frames'
+rm -f one.png; exits 0 render -q "${small[@]}" one.yaml
+exits 0 render "${small[@]}" one.yaml --frames all --skip-unchanged; err_has 'unchanged one.png'
 missing one-0001.png
 exits 2 render one.yaml view.yaml --frames 1 "${small[@]}" -o both/; is_png both/view-0001.png; err_has '1 rendered, 1 failed'
 

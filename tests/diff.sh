@@ -161,17 +161,117 @@ ok "kept.png is as it was" cmp -s kept.png dot.png
 exits 2 diff grey.png dot.png --out /dev/full; err_has 'cannot write /dev/full: No space left on device'
 ok "no temporary files" [ -z "$(find . -name '*.tmp' -o -name '.*.tmp')" ]
 
-# ---- Trouble ----
+# ---- Folders ----
 
 head -c 100 grey.png >cut.png
+mkdir -p a/sub/deeper b/sub/deeper
+for folder in a b; do cp grey.png $folder/grey.png; cp dot.png $folder/.hidden.png; cp empty.yaml $folder/; done
+cp again.png b/grey.png
+cp grey.png a/sub/dot.png; cp dot.png b/sub/dot.png
+cp grey.png a/sub/deeper/size.PNG; cp small.png b/sub/deeper/size.PNG
+cp grey.png a/light.png; cp lighter.png b/light.png
+cp grey.png a/gone.png; cp grey.png b/sub/new.png
+line="largest difference 0.01176 at 0,0"
+cat >expected <<END
+only in a/: gone.png
+different  light.png: 1200 of 1200 pixels (100 %), $line
+different  sub/deeper/size.PNG: their sizes are 40 x 30 and 20 x 30 pixels
+different  sub/dot.png: 4 of 1200 pixels (0.333 %), largest difference 0.2 at 19,14
+only in b: sub/new.png
+6 pictures: 1 same, 3 different, 1 only in a/, 1 only in b
+END
+exits 1 diff a/ b; ok "the folders" cmp out expected; no_err
+for threads in 1 3; do exits 1 diff a/ b --threads $threads; ok "$threads threads" cmp out expected; done
+exits 1 diff -q a b; no_out; no_err
+exits 0 diff a a/; out_is '5 pictures: 5 same'
+exits 1 diff a b --max-delta 0.012; out_has '6 pictures: 1 same, 1 within the limits, 2 different, 1 only in a, 1 only in b'
+ok "what is within the limits has no line" sh -c '! grep -q light.png out'
+exits 1 diff a b --metric flip,mae; out_has '           mae    0.000666667'; out_has '           flip   0.'
+exits 1 diff a b --ignore 19,14,2,2; out_has '2 same, 2 different'
+mkdir one two; cp grey.png one/x.png; cp dot.png two/x.png; cp white.png 'two/y.png'
+exits 1 diff one two; out_is "different  x.png: 4 of 1200 pixels (0.333 %), largest difference 0.2 at 19,14
+only in two: y.png
+2 pictures: 1 different, 1 only in two"
+exits 1 diff one two --mask white.png; out_is "only in two: y.png
+2 pictures: 1 same, 1 only in two"
+rm two/y.png; exits 0 diff one two --max-pixels 4; out_is '1 picture: 1 within the limits'
+exits 2 diff one two --mask small.png; err_has 'small.png: it is 20 x 30 pixels'; out_is '1 picture: 1 cannot be used'
+
+# heat maps: of what differs, under the same names
+exits 1 diff a b --out heats/deep; is_png heats/deep/light.png; is_png heats/deep/sub/dot.png
+ok "no others" [ "$(find heats -type f | wc -l)" -eq 2 ]
+"$monge" diff a/sub/dot.png b/sub/dot.png --out heat.png >out 2>err
+ok "the same heat map" cmp heat.png heats/deep/sub/dot.png
+for folder in a a/sub . b/heats; do
+    exits 2 diff a b --out $folder; err_has "--out $folder: heat maps cannot be among the pictures of "; no_out
+done
+rm -rf b/heats
+exits 2 diff a b --out -; err_has '--out -: the heat maps of folders need a folder'
+exits 2 diff a b --out grey.png; err_has 'cannot make the folder grey.png: '
+
+# JSON
+exits 1 diff a b --json
+if command -v python3 >/dev/null; then
+    ok "JSON of folders" python3 -c '
+import json
+d = json.load(open("out"))
+assert [(e["name"], e["same"], e["why"]) for e in d] == [
+    ("gone.png", False, "missing"), ("grey.png", True, None), ("light.png", False, "pixels"),
+    ("sub/deeper/size.PNG", False, "size"), ("sub/dot.png", False, "pixels"), ("sub/new.png", False, "missing")], d
+assert d[0]["a"] == {"file": "a/gone.png"} and d[0]["b"] is None and d[5]["a"] is None
+assert d[4]["different"] == 4 and d[4]["b"]["file"] == "b/sub/dot.png"'
+fi
+
+# names that a terminal should not get, and what cannot be used
+mkdir odd even; cp grey.png $'odd/a\nb\ec.png'; cp grey.png 'odd/two words.png'; cp dot.png 'even/two words.png'
+exits 1 diff odd even; out_is "only in odd: a?b?c.png
+different  two words.png: 4 of 1200 pixels (0.333 %), largest difference 0.2 at 19,14
+2 pictures: 1 different, 1 only in odd"
+mkdir bad good; cp cut.png bad/cut.png; cp grey.png good/cut.png; ln -s nowhere.png bad/link.png; cp grey.png good/link.png
+mkfifo good/pipe.png; ln -s . good/loop.png; ln -s ../grey.png bad/z.png; cp grey.png good/z.png
+exits 2 diff bad good; err_has 'cannot use bad/cut.png: the file is cut off'; err_has 'cannot read bad/link.png: No such file'
+out_is '3 pictures: 1 same, 2 cannot be used'
+exits 2 diff bad good --json; out_has '"why": "trouble"'
+mkdir none1 none2; exits 2 diff none1 none2; err_has 'there is no PNG file below none1 or none2'; no_out
+exits 1 diff none1 one; out_is "only in one: x.png
+1 picture: 1 only in one"
+if [ "$(id -u)" -ne 0 ]; then
+    mkdir -m 0 none1/shut; exits 2 diff none1 one; err_has 'cannot read none1/shut/: '; rmdir none1/shut
+fi
+
+# a file and a folder: the file of its name
+exits 0 diff grey.png a; out_is 'same: all of 1200 pixels are equal'
+exits 1 diff b/light.png a/; out_has 'different: 1200'
+exits 1 diff a/ b/light.png; out_has 'different: 1200'
+exits 2 diff dot.png a; err_has 'cannot read a/dot.png: No such file'
+exits 2 diff - a; err_has 'standard input has no name to look for in a'
+exits 2 diff a/grey.png b --out b/grey.png; err_has 'would write over a picture'
+
+# ---- Trouble ----
+
 cp cut.png cut2.png
 : >none
 exits 2 diff grey.png absent.png; err_has 'cannot read absent.png: No such file'; no_out
-exits 2 diff grey.png .; err_has 'cannot read .: Is a directory'
 exits 2 diff grey.png cut.png; err_has 'cannot use cut.png: the file is cut off'
 exits 2 diff cut.png cut2.png; err_has 'cannot use cut.png'
+if command -v python3 >/dev/null; then # pixels that cannot be inflated, with the right check sum
+    python3 -c '
+import struct, zlib
+data = open("grey.png", "rb").read()
+at = data.index(b"IDAT") - 4
+size = struct.unpack(">I", data[at:at + 4])[0]
+bad = b"IDAT" + b"\xff" * size
+open("bad.png", "wb").write(data[:at + 4] + bad + struct.pack(">I", zlib.crc32(bad)) + data[at + 12 + size:])'
+    cp bad.png bad2.png
+    exits 2 diff grey.png bad.png; err_has 'cannot use bad.png: it is damaged'
+    exits 0 diff bad.png bad2.png; out_has 'same: ' # as its help says
+    "$monge" help diff | tr '\n' ' ' >out; out_has 'Files with the same bytes are the same without being decoded'
+fi
 exits 2 diff grey.png none; err_has 'error[bad-picture]: cannot use none: the file is empty'
 exits 2 diff grey.png empty.yaml; err_has 'it is no PNG file'
+exits 2 diff /dev/zero /dev/zero; err_has 'cannot use /dev/zero: it is no PNG file' # and not: it is too large
+"$monge" diff grey.png - < <(printf '\x89PN'; sleep 0.1; printf 'g\r\n\x1a\n'; exec yes) >out 2>err; status=$? last='diff grey.png -'
+ok "an endless pipe that is no PNG" [ $status -eq 2 ]; err_has 'cannot use standard input: it is no PNG file'
 exits 2 diff grey.png; err_has 'diff: expected two pictures, found 1'; err_has 'see `monge help diff`'
 exits 2 diff grey.png again.png dot.png; err_has 'found 3'
 exits 2 diff; err_has 'diff: no picture given'

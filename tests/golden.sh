@@ -263,6 +263,7 @@ wrong '--shadow 0.5 --no-shadows' 'give one of them'
 fresh 'rules: [{scenes: one, tolerance: {max: 0.1}}]'; exits 2 test s --golden g; err_has 'a tolerance needs the key `reason`'
 fresh 'root: ../nowhere'; exits 2 test s --golden g; err_has '`root`: g/../nowhere: No such file'
 fresh 'rules: [{scenes: one, options: --frames 2}]'; exits 1 test s --golden g; says broken one; out_has 'has no animation'
+fresh 'rules: [{scenes: one, options: --frames all}]'; exits 1 test s --golden g; says new one; out_has 'monge render s/one.yaml -o one.png'
 fresh 'rules: [{scenes: one, options: "--region 0,0,99,99"}]'; exits 1 test s --golden g; says broken one; out_has 'does not lie within'
 
 fresh 'rules:' '  - {scenes: [one, "in/*"], options: --size 20x10}' '  - {scenes: "*", options: --samples 2}'
@@ -279,7 +280,7 @@ exits 1 accept --golden g; err_has 'one is left as it is: its options in golden.
 fresh 'rules:' '  - {scenes: turn, options: "--frames 1-3:2 -D tint=red,\"hsv(120, 1, 1)\""}'
 printf 'params: {tint: white}\nanimation: {frames: 4}\nimage: {size: [8, 6], samples: 1}\nscene:\n  - box: {}\n    material: {diffuse: tint}\n    transform: {rotate: {y: 90 * t + 10}}\n' >s/turn.yaml
 exits 1 test s --golden g; says new turn-tint=red-0001; says new turn-tint=hsv_120_1_1-0003
-out_has "monge render s/turn.yaml --frames 3 -D 'tint=hsv(120, 1, 1)' -o turn-tint=hsv_120_1_1-0003.png"
+out_has "monge render s/turn.yaml -D 'tint=hsv(120, 1, 1)' --frames 3 -o turn-tint=hsv_120_1_1-0003.png"
 exits 0 accept --golden g; out_has '7 taken'
 exits 0 test s --golden g; sed -i 's/1-3:2/1/' g/golden.yaml
 exits 1 test s --golden g; says orphan turn-tint=red-0003; says same turn-tint=red-0001
@@ -618,7 +619,9 @@ if have git; then
     sed -i 's/pixels=......../pixels=00000000/' g/golden.lock; git commit -qm second g
     exits 1 test s --golden g; out_has "--samples 2 -D 'a=1 + 2' -D b=3 -o old.png"
     sed -i 's/options=.*/options=--samples 2;touch hurt $(touch hurt) -D a=`touch hurt`/' g/golden.lock
-    exits 1 test s --golden g; out_has "--samples '2;touch' hurt '\$(touch' 'hurt)' -D 'a=\`touch hurt\`' -o old.png"
+    exits 1 test s --golden g; out_has "--samples '2;touch' hurt '\$(touch' 'hurt)' -D 'a=\`touch' 'hurt\`' -o old.png"
+    sed -i "s/options=.*/options=-D 'a=it'\\\\''s 1 -D b=2' -D c=''/" g/golden.lock; git commit -qm fourth g
+    exits 1 test s --golden g; out_has "-D 'a=it'\\''s 1 -D b=2' -D c= -o old.png"
     rm -rf .git
 fi
 fresh

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/golden.h"
 #include "cli/say.h"
 
 static const enum option_id change_pixels[] = {OPTION_SIZE,    OPTION_SAMPLES, OPTION_REGION,
@@ -18,6 +19,48 @@ bool asked_changes_pixels(enum option_id option) {
     return false;
 }
 
+/* ---- As a text, the same for the same values ---- */
+
+/* In as few digits as give the same number again. */
+static void print_number(FILE *out, double number) {
+    char text[32];
+    for (int digits = 15; digits <= 17; digits++) {
+        snprintf(text, sizeof text, "%.*g", digits, number);
+        if (strtod(text, NULL) == number) break;
+    }
+    fputs(text, out);
+}
+
+static void print_value(FILE *out, enum option_id id, const struct option_value *value) {
+    const uint32_t *n = value->number;
+    switch (OPTION_TABLE[id].kind) {
+    case VALUE_WHOLE: fprintf(out, " %u", n[0]); break;
+    case VALUE_SIZE: fprintf(out, " %ux%u", n[0], n[1]); break;
+    case VALUE_REGION: fprintf(out, " %u,%u,%u,%u", n[0], n[1], n[2], n[3]); break;
+    case VALUE_FRACTION: fputc(' ', out), print_number(out, value->fraction); break;
+    default:
+        if (value->text) fprintf(out, " %s", value->text);
+    }
+}
+
+/* Bytes of a parameter's value without zeros that say nothing: those at the end of 0.10 and of 1.0. */
+static size_t value_length(const char *value) {
+    const char *digits = value + (*value == '-'), *point = digits + strspn(digits, "0123456789");
+    size_t length = strlen(value);
+    const bool decimal =
+        point > digits && *point == '.' && point[1] && !point[1 + strspn(point + 1, "0123456789")];
+    while (decimal && value[length - 1] == '0') length--;
+    return decimal && value[length - 1] == '.' ? length - 1 : length;
+}
+
+static void print_define(FILE *out, const struct monge_define *define) {
+    char *text = say_text("%s=%.*s", define->name, (int)value_length(define->value), define->value),
+         *word = golden_quoted(text);
+    fprintf(out, " -D %s", word);
+    free(word);
+    free(text);
+}
+
 /* By their names, of which each is there once. */
 static void print_defines(FILE *out, const struct monge_define *defines, size_t count) {
     const struct monge_define *last = NULL;
@@ -28,7 +71,7 @@ static void print_defines(FILE *out, const struct monge_define *defines, size_t 
             if ((!last || strcmp(d->name, last->name) > 0) && (!next || strcmp(d->name, next->name) < 0))
                 next = d;
         }
-        fprintf(out, " -D %s=%s", next->name, next->value);
+        print_define(out, next);
         last = next;
     }
 }
@@ -47,7 +90,7 @@ char *asked_text(const struct option_value *option, const struct monge_define *d
         if (!o->given) continue;
         fprintf(out, " --%s",
                 change_pixels[i] == OPTION_NO_SHADOWS ? "shadow 1" : OPTION_TABLE[change_pixels[i]].name);
-        if (o->text) fprintf(out, " %s", o->text);
+        print_value(out, change_pixels[i], o);
     }
     print_defines(out, defines, define_count);
     if (frame > 1) fprintf(out, " --frames %u", frame);
@@ -89,13 +132,16 @@ bool asked_region(const struct option_value *option, const char *scene, const st
 unsigned *asked_frames(const struct option_value *option, const char *scene, unsigned total, size_t *count) {
     const unsigned first = option->given ? option->number[0] : 1,
                    step = option->given ? option->number[2] : 1;
-    const unsigned last = !option->given ? 1 : option->number[1] ? option->number[1] : total;
-    if (option->given && total == 0) {
+    const bool all = option->given && first == 1 && option->number[1] == 0, still = total == 0;
+    const unsigned last = !option->given || (all && still) ? 1
+                          : option->number[1]              ? option->number[1]
+                                                           : total;
+    if (option->given && still && !all) {
         say_error("--frames %s: %s has no animation; `animation: {frames: 48}` makes one", option->text,
                   scene);
         return NULL;
     }
-    if (option->given && (first > total || last > total)) {
+    if (option->given && !still && (first > total || last > total)) {
         say_error("--frames %s: %s has %u frame%s", option->text, scene, total, total == 1 ? "" : "s");
         return NULL;
     }

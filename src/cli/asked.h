@@ -6,7 +6,8 @@
 #include "monge.h"
 
 /* "--size 320x240 --samples 4 -D a=1 --frames 3": the options that change pixels, in the order of the table, then the
- * parameters by name and the frame, unless it is the first. "" where nothing is asked for. To be freed. */
+ * parameters by name and the frame, unless it is the first; as a shell takes them, and numbers the same however they were
+ * written. "" where nothing is asked for. To be freed. */
 char *asked_text(const struct option_value *option, const struct monge_define *defines, size_t define_count,
                  unsigned frame);
 
@@ -20,8 +21,8 @@ void asked_settings(const struct option_value *option, struct monge_settings *se
 bool asked_region(const struct option_value *option, const char *scene, const struct monge_settings *settings,
                   struct monge_region *region);
 
-/* The frames that --frames asks for, of an animation of `total`; without it the first alone. NULL, with the reason
- * told, where they are not there. To be freed. */
+/* The frames that --frames asks for, of an animation of `total`; without it the first alone. All that a still, of which
+ * the total is 0, has is one. NULL, with the reason told, where they are not there. To be freed. */
 unsigned *asked_frames(const struct option_value *option, const char *scene, unsigned total, size_t *count);
 
 #endif

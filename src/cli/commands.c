@@ -48,6 +48,9 @@
     "paths "                                                                                                 \
     "are from the current folder. "
 
+/* Where `make install` puts it, below a prefix that the program does not know. */
+#define IN_DOCUMENTS(file) file ", in share/doc/monge,"
+
 /* The words of a choice stand in the order of the enum that they become. */
 const struct option_row OPTION_TABLE[OPTIONS] = {
     [OPTION_OUTPUT] = {"output", 'o', VALUE_FILE, IN_RENDER, "FILE|DIR/|PATTERN", 0, 0,
@@ -84,6 +87,8 @@ const struct option_row OPTION_TABLE[OPTIONS] = {
                                "leave pictures alone that program, options and files would make again"},
     [OPTION_RESUME] = {"resume", 0, VALUE_NONE, IN_RENDER, NULL, 0, 0,
                        "go on where a run with --resume was stopped; implies --skip-unchanged"},
+    [OPTION_DRY_RUN] = {"dry-run", 'n', VALUE_NONE, IN_RENDER, NULL, 0, 0,
+                        "write nothing; tell which pictures would be rendered, and which not"},
     [OPTION_KEEP_GOING] = {"keep-going", 'k', VALUE_NONE, IN_RENDER, NULL, 0, 0,
                            "after a failure render the others all the same; this is the default"},
     [OPTION_FAIL_FAST] = {"fail-fast", 0, VALUE_NONE, IN_RENDER, NULL, 0, 0,
@@ -107,9 +112,10 @@ const struct option_row OPTION_TABLE[OPTIONS] = {
     [OPTION_MASK] = {"mask", 0, VALUE_FILE, IN_DIFF, "MASK", 0, 0, "the same as --ignore MASK"},
     [OPTION_PPD] = {"ppd", 0, VALUE_FRACTION, IN_DIFF, "F", 1, 1000,
                     "pixels per degree of sight, for flip; 67 by default"},
-    [OPTION_HEAT_MAP] = {"out", 'o', VALUE_FILE, IN_DIFF, "FILE", 0, 0,
-                         "write a picture of where they differ; - is standard output"},
-    [OPTION_DIFF_JSON] = {"json", 0, VALUE_NONE, IN_DIFF, NULL, 0, 0, "as one JSON object"},
+    [OPTION_HEAT_MAP] = {"out", 'o', VALUE_FILE, IN_DIFF, "FILE|DIR", 0, 0,
+                         "write a picture of where they differ; - is standard output; of folders: a folder"},
+    [OPTION_DIFF_JSON] = {"json", 0, VALUE_NONE, IN_DIFF, NULL, 0, 0,
+                          "as one JSON object, of folders a list of them"},
     [OPTION_LIMIT] = {"limit", 0, VALUE_PAIR, IN_RENDER | IN_CHECK | IN_INFO | IN_TEST | IN_ACCEPT,
                       "NAME=VALUE", 0, 0, "what a scene may take, see above; with k, M or G; repeatable"},
     [OPTION_UNTRUSTED] = {"untrusted", 0, VALUE_NONE, IN_RENDER | IN_CHECK | IN_INFO | IN_TEST, NULL, 0, 0,
@@ -192,17 +198,21 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                  "pictures into a folder, which is made where it is missing, and in a pattern "
                  "{name} stands for NAME; folders of a pattern are made too. A picture is complete "
                  "under its name, or what was there before stays.",
-                 "-D sets parameters of the scene. Lists make a sweep: -D a=1,2 -D b=x,y renders "
-                 "each a with each b, b first. Commas within brackets or quotes do not split. In a "
+                 "-D sets parameters of the scene. Lists make a sweep: -D a=1,2 -D b=x,y renders a=1 "
+                 "with b=x, a=1 with b=y, a=2 with b=x, a=2 with b=y. Commas within brackets or quotes do "
+                 "not split. In a "
                  "pattern {a} stands for the value of a; without -o pictures are called "
                  "NAME-a=1-b=x.png.",
-                 "--frames renders frames of a scene with an `animation`; without it, the first. In "
+                 "--frames renders frames of a scene with an `animation`; without it, the first. With "
+                 "--frames all a "
+                 "scene without one is rendered too, under its plain name, {frame} being 1. In "
                  "a pattern {frame} is the number, with leading zeros; so is one %d or %04d, and %% "
                  "is a %. Without -o, and in a folder, pictures are called NAME-0001.png.",
                  "--aov writes auxiliary passes beside the picture: NAME.object.png and so on, and "
                  "NAME.depth.pfm. They tell of each pixel which object and which material the ray "
                  "through its centre meets first, how far in front of the eye, with which normal, and "
-                 "which point lights reach it there. The manual has what is in the files.",
+                 "which point lights reach it there. " IN_DOCUMENTS(
+                     "manual.md") " tells what is in the files.",
                  "-o - is standard output.",
                  "--jobs scenes are rendered at once, each on --threads threads; messages, --log and "
                  "--stats keep the order of the batch, and a line at the end counts what has become of "
@@ -216,6 +226,11 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                  "goes on from there, to the same bytes. The file goes when the picture is complete; it "
                  "counts for nothing where the scene, the settings or the program are no longer the same. "
                  "Of two runs for the same picture one keeps the tiles, and both make the picture.",
+                 "--dry-run writes nothing: it prints `SCENE -> FILE: would be rendered`, with "
+                 "--skip-unchanged or "
+                 "--resume `: its text differs` or what else the reason is, or `unchanged`. Scenes are read "
+                 "only "
+                 "with --frames; what is wrong in others is for `monge check` to tell.",
                  "--progress json writes a line for each picture that is done and ten a second while one is "
                  "rendered: an object with done, total, rendered, unchanged, failed (pictures), part (0 to "
                  "1), "
@@ -231,6 +246,7 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                          {"monge render scenes/ -o pictures/ --size 320x240", "small pictures of many"},
                          {"monge render scenes/ -o pictures/ --resume --log pictures.log",
                           "a long batch: to be given again if it is stopped"},
+                         {"monge render scenes/ -o pictures/ --resume --dry-run", "what that would render"},
                          {"monge render king.yaml -o 'draft-{name}.png' --shading diffuse --no-shadows",
                           "a quick look, in draft-king.png"},
                          {"monge render king.yaml -D roughness=0.1,0.2,0.4 -o 'king-{roughness}.png'",
@@ -238,6 +254,7 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                          {"monge render orbit.yaml --frames all -o orbit/", "orbit/orbit-0001.png and so on"},
                          {"generate | monge render - | display", "from a program to a program"}},
             .operand = "scene",
+            .argument = ARGUMENT_SCENE,
             .run = render_command,
         },
     [COMMAND_CHECK] =
@@ -261,6 +278,7 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                          {"monge check --format sarif scenes/*.yaml > monge.sarif",
                           "for what shows SARIF beside the code"}},
             .operand = "scene",
+            .argument = ARGUMENT_SCENE,
             .run = check_command,
         },
     [COMMAND_INFO] =
@@ -282,6 +300,7 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
             .examples = {{"monge info king.yaml", "what king.yaml consists of"},
                          {"monge info --json king.yaml | jq .camera", "the camera that it is framed by"}},
             .operand = "scene",
+            .argument = ARGUMENT_SCENE,
             .run = info_command,
         },
     [COMMAND_TEST] =
@@ -307,7 +326,8 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                  "to take. Orphans are looked for where there is a root, or where all operands are folders, "
                  "patterns or "
                  "lists.",
-                 "Exit status 1 where anything is not the same. grammar/testing.md is the page about it.",
+                 "Exit status 1 where anything is not the same. " IN_DOCUMENTS(
+                     "testing.md") " has all of it.",
                  LIMITS_TEXT},
             .examples = {{"monge test scenes/ --golden goldens/", "all scenes of a folder"},
                          {"monge test scenes/ --golden goldens/ --update-only-failed",
@@ -316,6 +336,7 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                           "before a commit, with `root` in golden.yaml"},
                          {"monge test --golden goldens/ --junit junit.xml --json -",
                           "for servers and programs"}},
+            .argument = ARGUMENT_SCENE,
             .run = test_command,
         },
     [COMMAND_ACCEPT] =
@@ -347,6 +368,7 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                      "Without a code: all codes, each with what it means in a sentence."},
             .examples = {{"monge explain unknown-key", "the story behind error[unknown-key]"},
                          {"monge explain | grep camera", "the codes that have to do with the camera"}},
+            .argument = ARGUMENT_CODE,
             .run = explain_command,
         },
     [COMMAND_IMPORT] =
@@ -363,6 +385,7 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
             .examples = {{"monge import cover.yml -o cover.yaml", "writes cover.yaml"},
                          {"monge import cover.yml | monge render - -o cover.png", "straight to a picture"}},
             .operand = "scene",
+            .argument = ARGUMENT_FILE,
             .run = import_command,
         },
     [COMMAND_FMT] =
@@ -385,19 +408,31 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                           "a step of a build: 1 where something is not formatted"},
                          {"monge fmt - < king.yaml | diff king.yaml -", "what it would change"}},
             .operand = "scene",
+            .argument = ARGUMENT_SCENE,
             .run = fmt_command,
         },
     [COMMAND_DIFF] =
         {
             .name = "diff",
-            .operands = "A.png B.png",
-            .doc = "tell whether two pictures are the same, and how they differ",
+            .operands = "A B",
+            .doc = "tell whether two pictures, or two folders of them, are the same, and how they differ",
             .text =
                 {"Two pictures are the same when they have the same size, bits a channel, colour space and "
                  "pixels. Text, compression, and whether there is a palette do not count; grey is equal red, "
                  "green and blue, a picture without alpha is opaque, and one that names no colour space is "
                  "sRGB. Any PNG will do. Prints a line about what differs; exit status 0 where they are the "
-                 "same, 1 where they are not, 2 where one cannot be read.",
+                 "same, 1 where they are not, 2 where one cannot be read. Files with the same bytes are the "
+                 "same "
+                 "without being decoded: that the pixels of both are damaged is not told.",
+                 "Of two folders all PNG files below them are compared by their names, several at once; what "
+                 "is "
+                 "hidden and links to folders are passed by. Prints a line for each that differs, beyond the "
+                 "limits where "
+                 "some are given, or that one folder alone has, and one that counts; exit status 1 means "
+                 "that "
+                 "there are such. --out is then a folder, where each that is not the same gets its heat map "
+                 "under "
+                 "its name. A picture and a folder: the picture of that name in the folder.",
                  "With --max-delta pixels differ where a channel does by more than that, on a scale from 0 "
                  "to 1; "
                  "with --max-pixels that many, or that part, may; with both, that many by more than that. "
@@ -430,8 +465,13 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                  "and each "
                  "metric by its name. Without --metric these are exact and max. A metric is null where the "
                  "pixels "
-                 "cannot be compared; psnr, which is then infinite, also where all are the same."},
+                 "cannot be compared; psnr, which is then infinite, also where all are the same. Of folders "
+                 "it "
+                 "is a list of such objects, each with its name before; one that cannot be compared has "
+                 "name, "
+                 "same, why (missing or trouble), a and b (file; null where there is none) alone."},
             .examples = {{"monge diff golden.png new.png", "exit status 0 where they are the same"},
+                         {"monge diff before/ after/ --out heat/", "all of two folders, with heat maps"},
                          {"monge diff a.png b.png --max-delta 0.01 --max-pixels 0.1%",
                           "one pixel in a thousand may differ by more than 0.01"},
                          {"monge diff a.png b.png --metric flip --max-delta 0.02 --out heat.png",
@@ -440,6 +480,7 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                          {"monge diff a.png b.png --ignore 0,0,120,20 --ignore mask.png",
                           "but for these pixels"}},
             .operand = "picture",
+            .argument = ARGUMENT_PICTURE,
             .run = diff_command,
         },
     [COMMAND_SCHEMA] =
@@ -466,20 +507,38 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
     [COMMAND_HELP] =
         {
             .name = "help",
-            .operands = "[COMMAND|WORD]",
+            .operands = "[COMMAND|WORD|language WORD]",
             .doc = "tell how to use monge, or what a word of a scene means",
             .text = {"Without a word: what there is. The manual page and the completion scripts come "
                      "from the same table as this text. A word is any that a scene may have as a key, "
                      "the kind of one of its mappings, or what an expression may call or name; `language`, "
-                     "`functions` and `presets` list what there is."},
+                     "`functions` and `presets` list what there is. Where a command is called so too, "
+                     "`language WORD` is "
+                     "the word of scenes. `monge --help` may stand for `monge help`."},
             .examples = {{"monge help render", "the options of render"},
                          {"monge help language", "a scene to begin with, and the kinds of mappings"},
                          {"monge help material", "the keys of a material, with types and defaults"},
                          {"monge help presets", "the materials that come with the program"},
                          {"source <(monge help --completion bash)", "completion in this shell"}},
+            .argument = ARGUMENT_HELP,
             .run = help_command,
         },
 };
+
+/* What help calls a value tells what it is. */
+enum argument option_argument(enum option_id option) {
+    const struct option_row *row = &OPTION_TABLE[option];
+    switch (row->kind) {
+    case VALUE_CHOICE: return ARGUMENT_WORDS;
+    case VALUE_CHOICES: return ARGUMENT_LIST;
+    case VALUE_AREA: return ARGUMENT_PICTURE;
+    case VALUE_PAIR: return option == OPTION_LIMIT ? ARGUMENT_LIMIT : ARGUMENT_NONE;
+    case VALUE_FILE:
+        if (strcmp(row->value, "MASK") == 0) return ARGUMENT_PICTURE;
+        return strcmp(row->value, "DIR") == 0 ? ARGUMENT_FOLDER : ARGUMENT_FILE;
+    default: return ARGUMENT_NONE;
+    }
+}
 
 enum command_id command_find(const char *name) {
     for (enum command_id c = COMMAND_NONE + 1; c < COMMANDS; c++)
@@ -533,7 +592,13 @@ static enum status run(const struct arguments *args) {
     return row->run(args);
 }
 
+/* monge --help COMMAND, which may be any word of `monge help`. */
+static bool asks_for_help(int argc, char **argv) {
+    return argc > 1 && (strcmp(argv[0], "--help") == 0 || strcmp(argv[0], "-h") == 0) && argv[1][0] != '-';
+}
+
 enum status command_run(int argc, char **argv) {
+    if (asks_for_help(argc, argv)) argv[0] = "help";
     const bool alone = argc == 0 || argv[0][0] == '-';
     const enum command_id command = alone ? COMMAND_NONE : command_find(argv[0]);
     if (!alone && command == COMMAND_NONE) return command_unknown(argv[0]);

@@ -50,6 +50,7 @@ enum option_id {
     OPTION_JOBS,
     OPTION_SKIP_UNCHANGED,
     OPTION_RESUME,
+    OPTION_DRY_RUN,
     OPTION_KEEP_GOING,
     OPTION_FAIL_FAST,
     OPTION_STATS,
@@ -113,6 +114,20 @@ struct option_row {
 };
 extern const struct option_row OPTION_TABLE[OPTIONS];
 
+/* What an operand is, or the value of an option: for completion. */
+enum argument {
+    ARGUMENT_NONE, /* nothing that is known */
+    ARGUMENT_FILE,
+    ARGUMENT_FOLDER,
+    ARGUMENT_SCENE, /* a file, a folder, @ and a list */
+    ARGUMENT_PICTURE,
+    ARGUMENT_WORDS, /* one of those that the table has */
+    ARGUMENT_LIST,  /* some of them, with commas between */
+    ARGUMENT_LIMIT, /* NAME=VALUE */
+    ARGUMENT_CODE,
+    ARGUMENT_HELP, /* what `monge help` may be followed by */
+};
+
 struct arguments;
 
 struct example {
@@ -121,25 +136,23 @@ struct example {
 
 struct command_row {
     const char *name;
-    const char *operands;       /* "SCENE...", "" */
-    const char *doc;            /* no capital, no full stop */
-    const char *text[16];       /* paragraphs, up to a NULL */
-    struct example examples[8]; /* up to a NULL */
-    const char *operand;        /* "scene"; NULL where it needs none */
+    const char *operands;        /* "SCENE...", "" */
+    const char *doc;             /* no capital, no full stop */
+    const char *text[20];        /* paragraphs, up to a NULL */
+    struct example examples[12]; /* up to a NULL */
+    const char *operand;         /* "scene"; NULL where it needs none */
+    enum argument argument;      /* what its operands are */
     enum status (*run)(const struct arguments *args);
 };
 extern const struct command_row COMMAND_TABLE[COMMANDS];
 
 extern const char *const STATUS_DOC[STATUS_TROUBLE + 1];
 
-/* Whether the value is made of words that are known. */
-static inline bool option_has_words(const struct option_row *row) {
-    return row->kind == VALUE_CHOICE || row->kind == VALUE_CHOICES;
-}
-
 static inline bool command_takes(enum command_id command, enum option_id option) {
     return OPTION_TABLE[option].commands >> command & 1;
 }
+
+enum argument option_argument(enum option_id option);
 
 /* COMMAND_NONE where there is none of that name. */
 enum command_id command_find(const char *name);

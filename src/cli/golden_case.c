@@ -51,29 +51,13 @@ static void listen_end(struct listener *listener, struct golden_case *c) {
 
 /* ---- Commands ---- */
 
-/* The options of the case for a shell, each with a blank before it. */
-static char *shell_options(const struct golden_rule *rule, const struct monge_define *defines,
-                           unsigned frame) {
-    char *text = asked_text(rule->args.option, NULL, 0, frame),
-         *all = say_text("%s%s", *text ? " " : "", text);
-    for (size_t i = 0; i < rule->loader.sweep.count; i++) {
-        char *define = say_text("%s=%s", defines[i].name, defines[i].value), *word = golden_quoted(define);
-        char *longer = say_text("%s -D %s", all, word);
-        free(word);
-        free(define);
-        free(all);
-        all = longer;
-    }
-    free(text);
-    return all;
-}
-
 static void set_command(struct golden_case *c, const struct golden_rule *rule,
                         const struct monge_define *defines, unsigned frame) {
     const char *slash = strrchr(c->name, '/');
-    char *options = shell_options(rule, defines, frame), *scene = golden_quoted(c->scene);
+    char *options = asked_text(rule->args.option, defines, rule->loader.sweep.count, frame),
+         *scene = golden_quoted(c->scene);
     char *picture = say_text("%s.png", slash ? slash + 1 : c->name), *output = golden_quoted(picture);
-    c->arguments = say_text("%s%s", scene, options);
+    c->arguments = say_text("%s%s%s", scene, *options ? " " : "", options);
     c->command = say_text("monge render %s -o %s", c->arguments, output);
     free(output);
     free(picture);
@@ -210,7 +194,7 @@ static void run_frames(struct subject *s) {
     s->digits = pattern_digits(total);
     for (size_t i = 0; i < count && !interrupt_pending(); i++) {
         const double begun = clock_seconds();
-        s->frame = option->given ? frames[i] : 0;
+        s->frame = option->given && total > 0 ? frames[i] : 0;
         struct golden_case *c = add_case(s);
         listen_begin(&listener);
         const enum status status =

@@ -7,6 +7,7 @@
 
 #include "cli/golden_folder.h"
 #include "cli/golden_run.h"
+#include "cli/golden_settings.h"
 #include "cli/say.h"
 
 /* ---- --old ---- */
@@ -64,38 +65,18 @@ bool golden_render_old(const struct golden_run *run, struct golden_case *c) {
 
 /* ---- The command ---- */
 
-/* Whether a value ends before this, which asked_text would print behind one. */
-static bool ends_value(const char *at) {
-    static const char letters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_0123456789";
-    static const char define[] = " -D ", frames[] = " --frames ";
-    const size_t name = strncmp(at, define, sizeof define - 1) ? 0 : strspn(at + sizeof define - 1, letters);
-    if (name > 0) return at[sizeof define - 1 + name] == '=';
-    if (strncmp(at, frames, sizeof frames - 1) != 0) return false;
-    return !at[sizeof frames - 1 + strspn(at + sizeof frames - 1, "0123456789")];
-}
-
-/* Bytes of the first word of options as asked_text prints them, which has no quotes. */
-static size_t word_length(const char *options, bool value) {
-    size_t length = value ? 0 : strcspn(options, " ");
-    while (value && options[length] && !ends_value(options + length)) length++;
-    return length;
-}
-
-/* Options as asked_text prints them, for a shell, each with a blank before it: they may come from anybody, by way of the
- * golden. */
+/* Options as asked_text prints them, each with a blank before it. They may come from anybody, by way of the golden: each
+ * of their words is quoted anew. */
 static char *quoted_options(const char *options) {
-    char *all = say_text("%s", "");
-    for (bool value = false; *options;) {
-        const size_t length = word_length(options, value);
-        char *word = say_text("%.*s", (int)length, options), *quoted = golden_quoted(word),
-             *longer = say_text("%s %s", all, quoted);
-        value = !value && strcmp(word, "-D") == 0;
-        options += length + (options[length] == ' ');
+    char *all = say_text("%s", ""), *copy = say_text("%s", options), *at = copy;
+    bool open = false;
+    for (char *word; (word = golden_next_word(&at, &open));) {
+        char *quoted = golden_quoted(word), *longer = say_text("%s %s", all, quoted);
         free(all);
         free(quoted);
-        free(word);
         all = longer;
     }
+    free(copy);
     return all;
 }
 

@@ -12,9 +12,7 @@
 
 /* ---- Options ---- */
 
-/* The next word at *at, as a shell would have it, in place: blanks part words but in quotes, and \ takes what follows as
- * it is. NULL: there is none. *open: a quote is not closed. */
-static char *next_word(char **at, bool *open) {
+char *golden_next_word(char **at, bool *open) {
     char *c = *at + strspn(*at, " \t\n"), *const word = c, *to = c, quote = 0;
     if (!*c) return NULL;
     for (; *c && (quote || !strchr(" \t\n", *c)); c++) {
@@ -38,7 +36,7 @@ static bool split_words(struct golden_rule *rule, int *count) {
         say_error("out of memory");
         exit(STATUS_TROUBLE);
     }
-    for (*count = 0; (rule->words[*count] = next_word(&at, &open)); ++*count) continue;
+    for (*count = 0; (rule->words[*count] = golden_next_word(&at, &open)); ++*count) continue;
     if (open) say_error("a quote is not closed");
     return !open;
 }

@@ -27,6 +27,10 @@ bool golden_settings_read(struct golden_settings *settings, const char *folder,
                           const enum monge_golden_kind *kind, const struct loader *loader);
 void golden_settings_free(struct golden_settings *settings);
 
+/* The next word of options at *at, as a shell would have it, in place: blanks part words but in quotes, and \ takes what
+ * follows as it is. NULL: there is none. *open: a quote is not closed. */
+char *golden_next_word(char **at, bool *open);
+
 /* The rule for a scene, by its name. */
 struct golden_rule *golden_settings_find(const struct golden_settings *settings, const char *name);
 

@@ -95,9 +95,8 @@ static void print_command(FILE *out, enum command_id command) {
     fputs("\nexamples:\n", out);
     for (int i = 0; row->examples[i].line; i++)
         fprintf(out, "  %s\n      %s\n", row->examples[i].line, row->examples[i].doc);
-    if (!is_kind(row->name)) return;
-    fprintf(out, "\n`%s` is also a word of scenes. ", row->name);
-    monge_help(row->name, out);
+    if (is_kind(row->name))
+        fprintf(out, "\n`%s` is also a word of scenes: `monge help language %s`.\n", row->name, row->name);
 }
 
 void help_print(FILE *out, enum command_id command) {
@@ -124,8 +123,9 @@ static enum status unknown_word(const char *word) {
 
 enum status help_command(const struct arguments *args) {
     const struct option_value *completion = &args->option[OPTION_COMPLETION];
-    if (args->count > 1) {
-        say_usage(COMMAND_HELP, "help: expected one word, found `%s` as well", args->operands[1]);
+    const bool of_scenes = args->count > 1 && strcmp(args->operands[0], "language") == 0;
+    if (args->count > 1 + (size_t)of_scenes) {
+        say_usage(COMMAND_HELP, "help: expected one word, found `%s` as well", args->operands[1 + of_scenes]);
         return STATUS_TROUBLE;
     }
     if (args->option[OPTION_MAN].given) {
@@ -136,8 +136,9 @@ enum status help_command(const struct arguments *args) {
         completion_print(stdout, (enum completion_shell)completion->choice);
         return STATUS_YES;
     }
-    if (args->count == 1 && command_find(args->operands[0]) == COMMAND_NONE)
-        return monge_help(args->operands[0], stdout) ? STATUS_YES : unknown_word(args->operands[0]);
-    help_print(stdout, args->count == 1 ? command_find(args->operands[0]) : COMMAND_NONE);
+    const char *word = args->count > 0 ? args->operands[args->count - 1] : NULL;
+    if (word && (of_scenes || command_find(word) == COMMAND_NONE))
+        return monge_help(word, stdout) ? STATUS_YES : unknown_word(word);
+    help_print(stdout, word ? command_find(word) : COMMAND_NONE);
     return STATUS_YES;
 }

@@ -23,6 +23,8 @@ static const struct limit_row {
 };
 enum { ROWS = sizeof rows / sizeof *rows };
 
+const char *limits_name(size_t i) { return i < ROWS ? rows[i].name : NULL; }
+
 static bool unknown_limit(enum command_id command, const char *name) {
     struct suggestion nearest = {.word = name};
     char all[128] = "";

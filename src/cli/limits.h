@@ -13,4 +13,7 @@ struct limits {
 /* Reads all --limit; what none names has its default. False, with the reason on stderr, when one is wrong. */
 bool limits_read(const struct arguments *args, struct limits *limits);
 
+/* The names that it knows, from 0 up to a NULL. */
+const char *limits_name(size_t i);
+
 #endif

@@ -80,6 +80,34 @@ static void print_examples(FILE *out) {
     }
 }
 
+/* Terms with what they mean, up to a NULL. */
+static void print_terms(FILE *out, const char *section, const char *const terms[][2]) {
+    fprintf(out, ".SH %s\n", section);
+    for (; (*terms)[0]; terms++) {
+        fputs(".TP\n.B ", out);
+        print_line(out, (*terms)[0]);
+        print_line(out, (*terms)[1]);
+    }
+}
+
+static const char *const files[][2] = {
+    {".NAME.png.partial", "beside NAME.png: the tiles of a picture that `monge render --resume` has not "
+                          "completed yet; it goes with the last of them, and may be removed"},
+    {"monge-test/",
+     "the last run of `monge test`, unless --output names another folder: results.json, and the "
+     "new pictures that `monge accept` takes"},
+    {"DIR/golden.yaml, DIR/golden.lock",
+     "rules for goldens, which are yours to write, and goldens that are a "
+     "line of text"},
+    {"PREFIX/share/doc/monge/", "README.md; manual.md and reference.md of the language; testing.md, about "
+                                "golden pictures; errors.md"},
+    {"PREFIX/share/monge/scene.schema.json, golden.schema.json", "what editors complete and check scenes and "
+                                                                 "golden.yaml by"},
+    {NULL, NULL}};
+
+static const char *const environment[][2] = {
+    {"NO_COLOR", "where it is set, `monge test` uses no colours on a terminal"}, {NULL, NULL}};
+
 void manual_print(FILE *out) {
     fprintf(out, ".TH MONGE 1 \"\" \"Monge %s\" \"User Commands\"\n.SH NAME\nmonge \\- ", monge_version());
     print_line(out, COMMAND_TABLE[COMMAND_NONE].doc);
@@ -100,5 +128,7 @@ void manual_print(FILE *out) {
         fprintf(out, ".TP\n%d\n", s);
         print_line(out, STATUS_DOC[s]);
     }
+    print_terms(out, "ENVIRONMENT", environment);
+    print_terms(out, "FILES", files);
     print_examples(out);
 }

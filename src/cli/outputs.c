@@ -45,17 +45,19 @@ static char *usual_file(const struct plan *plan, const struct pattern_values *va
     return joined(pattern_usual(plan->sweep, values), ".png");
 }
 
-/* The path of a picture; of `frame` 0, as far as it is known without the frame. */
+/* The path of a picture; of `frame` 0, as far as it is known without the frame. Of a still, which has no last frame, the
+ * usual name is that without a frame. */
 static char *picture_path(const struct plan *plan, const struct output *output, unsigned frame,
                           unsigned last) {
-    const struct pattern_values values = {.name = output->name,
-                                          .defines = output->defines,
-                                          .define_count = plan->sweep->count,
-                                          .frames = plan->frames != NULL,
-                                          .frame = frame,
-                                          .digits = pattern_digits(last)};
-    if (!plan->wanted) return is_stream(output->scene) ? say_text("-") : usual_file(plan, &values);
-    char *path = pattern_expand(plan->wanted, &values);
+    struct pattern_values values = {.name = output->name,
+                                    .defines = output->defines,
+                                    .define_count = plan->sweep->count,
+                                    .frames = plan->frames != NULL,
+                                    .frame = frame,
+                                    .digits = pattern_digits(last)};
+    char *path = plan->wanted ? pattern_expand(plan->wanted, &values) : NULL;
+    if (frame > 0 && last == 0) values.frames = false;
+    if (!path) return is_stream(output->scene) ? say_text("-") : usual_file(plan, &values);
     const bool slash = ends_in_slash(path);
     if (!slash && !is_folder(path)) return path;
     char *name = usual_file(plan, &values);

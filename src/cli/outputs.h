@@ -42,7 +42,7 @@ bool plan_reach(const struct plan *plan, const char *path);
 /* Whether pictures go where their order matters: to a pipe, a device or standard output. */
 bool plan_is_serial(const struct plan *plan);
 
-/* The same for the frames of an output, `last` being the last one of the whole animation: the paths of
+/* The same for the frames of an output, `last` being the last one of the whole animation, 0 of a still: the paths of
  * frames[0 .. count-1]. NULL when something is wrong. To be freed by paths_free. */
 char **plan_frames(struct plan *plan, const struct output *output, const unsigned *frames, size_t count,
                    unsigned last);

@@ -9,10 +9,12 @@ enum outcome { PICTURE_FAILED, PICTURE_RENDERED, PICTURE_UNCHANGED /* the file w
 struct picture {
     const char *scene; /* as the user knows it; "-" for the standard streams, here and in output */
     char *output;      /* owned */
-    unsigned frame;    /* 0: --frames is not given */
+    unsigned frame;    /* 0: --frames is not given, or the scene is a still */
     const struct monge_define *defines;
     size_t define_count;
     enum outcome outcome;
+    const char
+        *reason; /* with --dry-run: why it would be rendered; "": nobody asked; NULL: it would not. Static */
     /* Of a picture that was rendered: */
     struct monge_settings settings;
     struct monge_region region; /* what was rendered of it: the size of the file */

@@ -1,7 +1,9 @@
 #include "cli/render.h"
 
+#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "cli/asked.h"
 #include "cli/batch.h"
@@ -42,18 +44,51 @@ static enum status fail_output(struct unit *unit, enum status status) {
     return end_picture(unit, status);
 }
 
-/* Whether it is asked for, and right, that the picture stays as it is. */
-static bool is_unchanged(const struct unit *unit, const char *path, unsigned frame) {
+/* NULL where it is asked for, and right, that the picture stays as it is; else why not, "" being that nobody asked. */
+static const char *reason_to_render(const struct unit *unit, const char *path, unsigned frame) {
     const struct work *work = unit->work;
     const struct output *output = unit->output;
-    if (!work_wants(work, OPTION_SKIP_UNCHANGED) && !work_wants(work, OPTION_RESUME)) return false;
-    if (work->plan.passes) return false; /* a picture does not say that its passes are right */
+    if (!work_wants(work, OPTION_SKIP_UNCHANGED) && !work_wants(work, OPTION_RESUME)) return "";
+    if (work->plan.passes) return "--aov is given"; /* a picture does not say that its passes are right */
     char *asked = asked_text(work->args.option, output->defines, work->loader.sweep.count, frame);
-    const bool same = unchanged_picture(path, output->scene, asked, &work->loader.limits.load);
+    const char *reason = unchanged_reason(path, output->scene, asked, &work->loader.limits.load);
     free(asked);
-    if (same && work_wants(work, OPTION_RESUME)) checkpoint_forget(path);
-    if (same && !work_wants(work, OPTION_QUIET)) say_note("unchanged %s", path);
-    return same;
+    return reason;
+}
+
+static bool is_unchanged(const struct unit *unit, const char *path, unsigned frame) {
+    const struct work *work = unit->work;
+    if (reason_to_render(unit, path, frame)) return false;
+    if (work_wants(work, OPTION_RESUME)) checkpoint_forget(path);
+    if (!work_wants(work, OPTION_QUIET)) say_note("unchanged %s", path);
+    return true;
+}
+
+/* ---- What would be rendered ---- */
+
+/* Of the last picture. */
+static enum status foresee(struct unit *unit, unsigned frame) {
+    struct picture *picture = &unit->pictures[unit->count - 1];
+    const char *scene = picture->scene;
+    if (strcmp(scene, "-") != 0 && access(scene, R_OK) != 0) {
+        say_error("cannot read %s: %s", scene, strerror(errno));
+        return STATUS_TROUBLE;
+    }
+    picture->reason = reason_to_render(unit, picture->output, frame);
+    picture->outcome = picture->reason ? PICTURE_RENDERED : PICTURE_UNCHANGED;
+    return STATUS_YES;
+}
+
+static void tell_foreseen(const struct unit *unit) {
+    for (size_t i = 0; i < unit->count; i++) {
+        const struct picture *p = &unit->pictures[i];
+        const char *output = strcmp(p->output, "-") == 0 ? "standard output" : p->output;
+        if (p->outcome == PICTURE_FAILED) continue;
+        say_line(stdout, "%s -> %s: %s%s%s", unit->output->title, output,
+                 p->reason ? "would be rendered" : "unchanged", p->reason && *p->reason ? ": " : "",
+                 p->reason ? p->reason : "");
+    }
+    streams_flush();
 }
 
 /* ---- The frames of a scene ---- */
@@ -63,6 +98,7 @@ static enum status render_frame(struct unit *unit, struct load *load, unsigned f
                                 double begun) {
     const struct work *work = unit->work;
     struct picture *picture = &unit->pictures[unit->count - 1];
+    if (work_wants(work, OPTION_DRY_RUN)) return foresee(unit, frame);
     if (work->plan.frames && !plan_reach(&work->plan, picture->output)) return STATUS_TROUBLE;
     if (work->plan.frames && is_unchanged(unit, picture->output, frame)) {
         picture->outcome = PICTURE_UNCHANGED;
@@ -80,10 +116,11 @@ static enum status render_frame(struct unit *unit, struct load *load, unsigned f
 static enum status render_frames(struct unit *unit, struct load *load, const unsigned *frames, char **paths,
                                  size_t count, double begun) {
     enum status worst = STATUS_YES;
+    const bool numbered = unit->work->plan.frames && monge_scene_frames(load->scene) > 0;
     unsigned at = frames[0];
     progress_pictures(&unit->progress, count);
     for (size_t i = 0; i < count && !interrupt_pending(); i++) {
-        add_picture(unit, paths[i], unit->work->plan.frames ? frames[i] : 0);
+        add_picture(unit, paths[i], numbered ? frames[i] : 0);
         const enum status status =
             end_picture(unit, render_frame(unit, load, frames[i], &at, i == 0 ? begun : clock_seconds()));
         if (status > worst) worst = status;
@@ -112,6 +149,11 @@ static enum status render_load(struct unit *unit, struct load *load, double begu
 static bool is_settled(struct unit *unit, enum status *status) {
     const char *path = unit->output->path;
     if (unit->work->plan.frames) return false;
+    if (work_wants(unit->work, OPTION_DRY_RUN)) {
+        add_picture(unit, path, 0);
+        *status = end_picture(unit, foresee(unit, 0));
+        return true;
+    }
     const bool reached = plan_reach(&unit->work->plan, path);
     if (reached && !is_unchanged(unit, path, 0)) return false;
     add_picture(unit, path, 0)->outcome = reached ? PICTURE_UNCHANGED : PICTURE_FAILED;
@@ -145,6 +187,7 @@ static void end_unit(void *context, size_t index, const char *said) {
     const struct unit *unit = &work->units[index];
     if (*said) progress_hide(&work->progress);
     fputs(said, stderr);
+    if (work_wants(work, OPTION_DRY_RUN) && !work_wants(work, OPTION_QUIET)) tell_foreseen(unit);
     for (size_t i = 0; i < unit->count; i++) {
         work->outcomes[unit->pictures[i].outcome]++;
         log_picture(&work->log, &unit->pictures[i]);
@@ -182,7 +225,8 @@ static void summarize(const struct work *work) {
         n[PICTURE_UNCHANGED] ? say_text(", %zu unchanged", n[PICTURE_UNCHANGED]) : say_text("%s", "");
     char *failed = n[PICTURE_FAILED] ? say_text(", %zu failed", n[PICTURE_FAILED]) : say_text("%s", "");
     char *rest = left ? say_text(", %zu not begun", left) : say_text("%s", "");
-    say_note("%zu rendered%s%s%s", n[PICTURE_RENDERED], unchanged, failed, rest);
+    say_note("%zu %srendered%s%s%s", n[PICTURE_RENDERED], work_wants(work, OPTION_DRY_RUN) ? "would be " : "",
+             unchanged, failed, rest);
     free(rest);
     free(failed);
     free(unchanged);
@@ -209,12 +253,13 @@ static enum status render_all(struct work *work) {
     const struct option_value *option = work->args.option;
     const struct batch batch = {work->plan.count, choose_jobs(work), work, run_unit, end_unit};
     work->worst = work->loader.scenes.status;
-    progress_begin(&work->progress, (enum progress_wish)option[OPTION_PROGRESS].choice,
+    const bool dry = option[OPTION_DRY_RUN].given;
+    progress_begin(&work->progress, dry ? PROGRESS_NEVER : (enum progress_wish)option[OPTION_PROGRESS].choice,
                    option[OPTION_QUIET].given, work->plan.count);
     work->begun = batch_run(&batch);
     progress_end(&work->progress);
     summarize(work);
-    if (option[OPTION_STATS].text && !write_stats(work, option[OPTION_STATS].text))
+    if (option[OPTION_STATS].text && !dry && !write_stats(work, option[OPTION_STATS].text))
         work->worst = STATUS_TROUBLE;
     return log_close(&work->log) ? work->worst : STATUS_TROUBLE;
 }
@@ -223,7 +268,7 @@ static bool work_begin(struct work *work, const struct arguments *args) {
     *work = (struct work){.args = *args};
     if (!loader_begin(&work->loader, args) ||
         !plan_begin(&work->plan, args, &work->loader.scenes, &work->loader.sweep) ||
-        !log_open(&work->log, args->option[OPTION_LOG].text))
+        !log_open(&work->log, args->option[OPTION_DRY_RUN].given ? NULL : args->option[OPTION_LOG].text))
         return false;
     /* a document on stderr must be alone there: the notes are left out */
     if (work->loader.report.format != MONGE_FORMAT_TEXT ||

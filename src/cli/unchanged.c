@@ -2,6 +2,7 @@
 
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 static bool is_file(const char *path) {
     struct stat status;
@@ -14,14 +15,17 @@ static const char *said(const struct monge_picture *picture, const char *key) {
     return text ? text : "";
 }
 
-/* Whether it would be made of the same files, by the same program, in the same way. */
-static bool is_asked_for(const struct monge_picture *picture, const char *scene, const char *options,
-                         const struct monge_limits *limits, struct monge_diagnostics *diag) {
+/* What of the program, the way and the files it would be made by is another. */
+static const char *find_difference(const struct monge_picture *picture, const char *scene,
+                                   const char *options, const struct monge_limits *limits,
+                                   struct monge_diagnostics *diag) {
     char now[MONGE_HASH_SIZE];
-    return strcmp(said(picture, "monge:program"), monge_program()) == 0 &&
-           strcmp(said(picture, "monge:options"), options) == 0 &&
-           monge_files_hash(scene, said(picture, "monge:files"), limits, diag, now) &&
-           strcmp(said(picture, "monge:text"), now) == 0;
+    if (!monge_picture_text(picture, "monge:program")) return "it does not say what it was made of";
+    if (strcmp(said(picture, "monge:program"), monge_program()) != 0) return "the program differs";
+    if (strcmp(said(picture, "monge:options"), options) != 0) return "its options differ";
+    const bool same = monge_files_hash(scene, said(picture, "monge:files"), limits, diag, now) &&
+                      strcmp(said(picture, "monge:text"), now) == 0;
+    return same ? NULL : "its text differs";
 }
 
 /* Whether its pixels are still those that were written. */
@@ -30,14 +34,15 @@ static bool is_whole(struct monge_picture *picture, struct monge_diagnostics *di
     return monge_picture_hash(picture, diag, now) && strcmp(said(picture, "monge:pixels"), now) == 0;
 }
 
-bool unchanged_picture(const char *path, const char *scene, const char *options,
-                       const struct monge_limits *limits) {
-    if (!is_file(path) || !is_file(scene)) return false;
+const char *unchanged_reason(const char *path, const char *scene, const char *options,
+                             const struct monge_limits *limits) {
+    if (!is_file(scene)) return "its scene is no file";
+    if (!is_file(path)) return access(path, F_OK) != 0 ? "it is not there" : "it is no file";
     struct monge_diagnostics *diag = monge_diagnostics_new(); /* what is in it is not wrong, but new */
     struct monge_picture *picture = diag ? monge_picture_read(path, diag) : NULL;
-    const bool same =
-        picture && is_asked_for(picture, scene, options, limits, diag) && is_whole(picture, diag);
+    const char *reason = picture ? find_difference(picture, scene, options, limits, diag) : "it is damaged";
+    if (!reason && !is_whole(picture, diag)) reason = "it is damaged";
     monge_picture_free(picture);
     monge_diagnostics_free(diag);
-    return same;
+    return reason;
 }

@@ -2,13 +2,12 @@
 #ifndef MONGE_CLI_UNCHANGED_H
 #define MONGE_CLI_UNCHANGED_H
 
-#include <stdbool.h>
-
 #include "monge.h"
 
-/* Whether the file `path` is a whole picture that this program made from the scene file as it is now, with what it
- * includes, and with these options (as asked_text has them). False also where anything of that cannot be read. */
-bool unchanged_picture(const char *path, const char *scene, const char *options,
-                       const struct monge_limits *limits);
+/* NULL where the file `path` is a whole picture that this program made from the scene file as it is now, with what it
+ * includes, and with these options (as asked_text has them); else why it is not, or cannot be known to be:
+ * "its text differs". Static. */
+const char *unchanged_reason(const char *path, const char *scene, const char *options,
+                             const struct monge_limits *limits);
 
 #endif

@@ -18,7 +18,8 @@ enum {
     MAX_CHUNK_MEMORY = 1 << 23,
     MAX_CHUNKS_KEPT = 128,
     MAX_PACKED_TEXT = 1 << 16, /* of all compressed texts: at most 66 MB when it is inflated */
-    CHUNK_FRAME = 12           /* length, type, check sum */
+    SIGNATURE = 8,
+    CHUNK_FRAME = 12 /* length, type, check sum */
 };
 
 static bool fail(char reason[PICTURE_REASON_SIZE], const char *format, ...)
@@ -34,18 +35,24 @@ static bool fail(char reason[PICTURE_REASON_SIZE], const char *format, ...) {
 
 /* ---- The file ---- */
 
-/* Reads on until the end, from where `size` bytes have been read. */
+static bool has_signature(const uint8_t *bytes, size_t size) {
+    return size >= SIGNATURE && png_sig_cmp(bytes, 0, SIGNATURE) == 0;
+}
+
+/* Reads on until the end; of what does not begin as PNG files do, no more than that: it may have no end. */
 static bool read_stream(int fd, size_t room, uint8_t **bytes, size_t *size) {
     *size = 0;
     for (;;) {
         uint8_t *larger = *size < room ? *bytes : realloc(*bytes, room *= 2);
         if (!larger) return false;
         *bytes = larger;
-        const ssize_t count = read(fd, *bytes + *size, room - *size);
+        const size_t wanted = *size < SIGNATURE ? SIGNATURE - *size : room - *size;
+        const ssize_t count = read(fd, *bytes + *size, wanted);
         if (count == 0) return true;
         if (count < 0 && errno == EINTR) continue;
         if (count < 0) return false;
         *size += (size_t)count;
+        if (*size == SIGNATURE && !has_signature(*bytes, *size)) return true;
         errno = EFBIG;
         if (*size > MAX_FILE) return false;
     }
@@ -58,7 +65,7 @@ static bool read_descriptor(int fd, uint8_t **bytes, size_t *size) {
     if (S_ISDIR(status.st_mode)) return false;
     errno = EFBIG;
     if (status.st_size > (off_t)MAX_FILE) return false;
-    const size_t room = S_ISREG(status.st_mode) ? (size_t)status.st_size + 1 : 1 << 16;
+    const size_t room = S_ISREG(status.st_mode) ? (size_t)status.st_size + SIGNATURE : 1 << 16;
     *bytes = pages_alloc(room);
     return *bytes && read_stream(fd, room, bytes, size);
 }
@@ -128,9 +135,9 @@ static bool finish_data(struct monge_picture *picture, char reason[PICTURE_REASO
 static bool check_chunks(struct monge_picture *picture, char reason[PICTURE_REASON_SIZE]) {
     struct picture_data *data = &picture->data;
     size_t packed = 0;
-    if (picture->file_size < 8 || png_sig_cmp(picture->file, 0, 8) != 0)
+    if (!has_signature(picture->file, picture->file_size))
         return fail(reason, picture->file_size ? "it is no PNG file" : "the file is empty");
-    for (size_t at = 8, next;; at = next) {
+    for (size_t at = SIGNATURE, next;; at = next) {
         uint8_t *chunk = picture->file + at;
         if (!check_chunk(chunk, picture->file_size - at, reason)) return false;
         hide_long_text(chunk, &packed);

@@ -1,0 +1,185 @@
+#include "cli/diff_pair.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "cli/say.h"
+
+#define METRIC_BIT(metric) (1u << (metric))
+
+const char *const DIFF_VERDICT[] = {"same", "within the limits", "different"};
+
+static const char *const names[MONGE_METRICS] = {"exact", "max", "mae", "rmse", "psnr", "ssim", "flip"};
+
+static double measure(const struct monge_difference *d, enum monge_metric metric) {
+    switch (metric) {
+    case MONGE_METRIC_EXACT:
+        if (isnan(d->max)) return NAN;
+        return d->pixels > 0 ? (double)d->different / (double)d->pixels : 0.0;
+    case MONGE_METRIC_MAX: return d->max;
+    case MONGE_METRIC_MAE: return d->mae;
+    case MONGE_METRIC_RMSE: return d->rmse;
+    case MONGE_METRIC_PSNR: return d->psnr;
+    case MONGE_METRIC_SSIM: return d->ssim;
+    case MONGE_METRIC_FLIP: return d->flip;
+    case MONGE_METRICS: break;
+    }
+    return NAN;
+}
+
+/* ---- Whether they pass ---- */
+
+bool diff_limits_means(const struct diff *diff) {
+    const unsigned pixelwise = METRIC_BIT(MONGE_METRIC_EXACT) | METRIC_BIT(MONGE_METRIC_MAX);
+    return diff->args->option[OPTION_METRIC].given && !(diff->metrics & pixelwise);
+}
+
+/* A metric as an error: 0 for equal pictures. */
+static double error_of(const struct monge_difference *d, enum monge_metric metric) {
+    if (metric == MONGE_METRIC_PSNR) return d->rmse;
+    return metric == MONGE_METRIC_SSIM ? 1.0 - d->ssim : measure(d, metric);
+}
+
+/* Each comparison is false of NaN. */
+static bool means_pass(const struct diff *diff, const struct monge_difference *d) {
+    for (enum monge_metric m = 0; m < MONGE_METRICS; m++)
+        if (diff->metrics & METRIC_BIT(m) &&
+            !(error_of(d, m) <= diff->args->option[OPTION_MAX_DELTA].fraction))
+            return false;
+    return true;
+}
+
+static bool pixels_pass(const struct diff *diff, const struct monge_difference *d) {
+    const struct option_value *most = &diff->args->option[OPTION_MAX_PIXELS];
+    return (double)d->beyond <= (most->percent ? most->fraction / 100.0 * (double)d->pixels : most->fraction);
+}
+
+static bool passes(const struct diff *diff, const struct monge_difference *d) {
+    const bool delta = diff->args->option[OPTION_MAX_DELTA].given;
+    const bool pixels = diff->args->option[OPTION_MAX_PIXELS].given;
+    if (!delta && !pixels) return d->same;
+    if (d->unlike == MONGE_UNLIKE_SIZE || d->unlike == MONGE_UNLIKE_COLOR_SPACE) return false;
+    if (!delta || !diff_limits_means(diff)) return pixels_pass(diff, d);
+    return means_pass(diff, d) && (!pixels || pixels_pass(diff, d));
+}
+
+/* ---- The comparison ---- */
+
+bool diff_same_file(const char *a, const char *b) {
+    struct stat of_a, of_b;
+    return stat(a, &of_a) == 0 && stat(b, &of_b) == 0 && of_a.st_dev == of_b.st_dev &&
+           of_a.st_ino == of_b.st_ino;
+}
+
+bool diff_pair_compare(struct diff_pair *pair, const struct diff *diff, const char *path_a,
+                       const char *path_b, struct monge_diagnostics *diag) {
+    *pair = (struct diff_pair){.diff = diff, .path_a = path_a, .path_b = path_b};
+    pair->a = monge_picture_read(path_a, diag);
+    pair->b = monge_picture_read(path_b, diag);
+    const struct monge_difference *d = &pair->difference;
+    if (!pair->a || !pair->b || !monge_compare(pair->a, pair->b, &diff->how, &pair->difference, diag))
+        return false;
+    pair->verdict = d->same ? DIFF_SAME : passes(diff, d) ? DIFF_WITHIN : DIFF_DIFFERENT;
+    return true;
+}
+
+void diff_pair_free(struct diff_pair *pair) {
+    monge_picture_free(pair->a);
+    monge_picture_free(pair->b);
+}
+
+bool diff_pair_write_heat_map(const struct diff_pair *pair, const char *path,
+                              struct monge_diagnostics *diag) {
+    return monge_heat_map_write(pair->a, pair->b, &pair->diff->how, path, diag);
+}
+
+/* ---- For people ---- */
+
+static void print_unlike(const struct diff_pair *pair, FILE *out) {
+    const struct monge_picture *a = pair->a, *b = pair->b;
+    const struct monge_difference *d = &pair->difference;
+    if (d->unlike == MONGE_UNLIKE_SIZE)
+        fprintf(out, "their sizes are %u x %u and %u x %u pixels", monge_picture_width(a),
+                monge_picture_height(a), monge_picture_width(b), monge_picture_height(b));
+    else if (d->unlike == MONGE_UNLIKE_COLOR_SPACE)
+        fprintf(out, "their colour spaces are %s and %s", monge_picture_color_space(a),
+                monge_picture_color_space(b));
+    else
+        fprintf(out, "they have %u and %u bits a channel; ", monge_picture_bits(a), monge_picture_bits(b));
+}
+
+static void print_pixels(const struct monge_difference *d, FILE *out) {
+    if (d->different == 0) {
+        fprintf(out, "all of %" PRIu64 " pixels are equal", d->pixels);
+        return;
+    }
+    fprintf(out, "%" PRIu64 " of %" PRIu64 " pixels (%.3g %%), largest difference %.4g at %u,%u",
+            d->different, d->pixels, 100.0 * measure(d, MONGE_METRIC_EXACT), d->max, d->max_x, d->max_y);
+    if (d->beyond < d->different) fprintf(out, "; %" PRIu64 " beyond --max-delta", d->beyond);
+}
+
+void diff_pair_print(const struct diff_pair *pair, const char *before, FILE *out) {
+    const struct monge_difference *d = &pair->difference;
+    const unsigned metrics = pair->diff->args->option[OPTION_METRIC].given ? pair->diff->metrics : 0;
+    if (d->unlike != MONGE_UNLIKE_NOTHING) print_unlike(pair, out);
+    if (!isnan(d->max)) print_pixels(d, out);
+    fputc('\n', out);
+    for (enum monge_metric m = 0; m < MONGE_METRICS; m++)
+        if (metrics & METRIC_BIT(m) && !isnan(measure(d, m)))
+            fprintf(out, "%s%-5s  %.6g\n", before, names[m], measure(d, m));
+}
+
+/* ---- For programs ---- */
+
+static void print_side(const char *key, const char *path, const struct monge_picture *picture, FILE *out) {
+    fprintf(out, "  \"%s\": {\"file\": ", key);
+    monge_write_json_string(path, out);
+    fprintf(out, ", \"width\": %u, \"height\": %u, \"bits\": %u, \"channels\": %u, \"colorSpace\": ",
+            monge_picture_width(picture), monge_picture_height(picture), monge_picture_bits(picture),
+            monge_picture_channels(picture));
+    monge_write_json_string(monge_picture_color_space(picture), out);
+    fprintf(out, "},\n");
+}
+
+static const char *find_reason(const struct monge_difference *d) {
+    static const char *const reasons[] = {
+        [MONGE_UNLIKE_NOTHING] = "\"pixels\"",
+        [MONGE_UNLIKE_SIZE] = "\"size\"",
+        [MONGE_UNLIKE_COLOR_SPACE] = "\"color space\"",
+        [MONGE_UNLIKE_BITS] = "\"bits\"",
+    };
+    return d->same ? "null" : reasons[d->unlike];
+}
+
+void diff_pair_print_json(const struct diff_pair *pair, const char *name, FILE *out) {
+    const struct monge_difference *d = &pair->difference;
+    const struct monge_region *r = &d->bounds;
+    fputs("{\n", out);
+    if (name) fputs("  \"name\": ", out), monge_write_json_string(name, out), fputs(",\n", out);
+    fprintf(out, "  \"same\": %s,\n  \"why\": %s,\n", pair->verdict == DIFF_DIFFERENT ? "false" : "true",
+            find_reason(d));
+    print_side("a", pair->path_a, pair->a, out);
+    print_side("b", pair->path_b, pair->b, out);
+    fprintf(out, "  \"pixels\": %" PRIu64 ",\n  \"different\": %" PRIu64 ",\n  \"beyond\": %" PRIu64 ",\n",
+            d->pixels, d->different, d->beyond);
+    if (d->different > 0)
+        fprintf(
+            out,
+            "  \"bounds\": {\"x\": %u, \"y\": %u, \"width\": %u, \"height\": %u},\n  \"largest\": {\"x\": "
+            "%u, "
+            "\"y\": %u}",
+            r->x, r->y, r->width, r->height, d->max_x, d->max_y);
+    else
+        fprintf(out, "  \"bounds\": null,\n  \"largest\": null");
+    for (enum monge_metric m = 0; m < MONGE_METRICS; m++) {
+        const double value = measure(d, m);
+        if (!(pair->diff->metrics & METRIC_BIT(m))) continue;
+        if (isfinite(value))
+            fprintf(out, ",\n  \"%s\": %.17g", names[m], value);
+        else
+            fprintf(out, ",\n  \"%s\": null", names[m]);
+    }
+    fputs("\n}", out);
+}
