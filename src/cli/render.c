@@ -2,6 +2,7 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "cli/asked.h"
 #include "cli/batch.h"
@@ -108,10 +109,10 @@ static enum status render_load(struct unit *unit, struct load *load, double begu
 /* ---- Units ---- */
 
 /* Without --frames, all that can be known before the scene is loaded: that its picture cannot be written, or need
- * not be. */
+ * not be. For a scene that is not there no folder is made. */
 static bool is_settled(struct unit *unit, enum status *status) {
-    const char *path = unit->output->path;
-    if (unit->work->plan.frames) return false;
+    const char *path = unit->output->path, *scene = unit->output->scene;
+    if (unit->work->plan.frames || (strcmp(scene, "-") != 0 && access(scene, F_OK) != 0)) return false;
     const bool reached = plan_reach(&unit->work->plan, path);
     if (reached && !is_unchanged(unit, path, 0)) return false;
     add_picture(unit, path, 0)->outcome = reached ? PICTURE_UNCHANGED : PICTURE_FAILED;
