@@ -27,24 +27,23 @@ static const struct golden_scene *scene_of(const struct golden_run *run, const c
     return NULL;
 }
 
-static bool is_below_root(const struct golden_run *run, const char *name, size_t length) {
-    static const char *const extensions[] = {"yaml", "yml"};
-    bool there = false;
-    for (int i = 0; i < 2 && !there && run->settings.root; i++) {
-        char *path = say_text("%s/%.*s.%s", run->settings.root, (int)length, name, extensions[i]);
-        there = golden_is_file(path);
-        free(path);
-    }
+/* Whether there is a scene of that name, which the run has not tested. */
+static bool is_elsewhere(const struct golden_run *run, struct golden_results *results, const char *name,
+                         size_t length) {
+    char *scene = say_text("%.*s", (int)length, name);
+    const bool there = golden_places_have(&results->places, scene, &run->loader.limits.load);
+    results->elsewhere += there;
+    free(scene);
     return there;
 }
 
 /* Whether some scene that is still there may need it, though this run does not tell: it is called NAME, or NAME- and
  * what frames and parameters add. */
-static bool may_be_needed(const struct golden_run *run, const char *golden) {
+static bool may_be_needed(const struct golden_run *run, struct golden_results *results, const char *golden) {
     for (size_t length = 1, all = strlen(golden); length <= all; length++) {
         if (golden[length] && golden[length] != '-') continue;
         const struct golden_scene *scene = scene_of(run, golden, length);
-        if (scene ? is_broken(scene) : is_below_root(run, golden, length)) return true;
+        if (scene ? is_broken(scene) : is_elsewhere(run, results, golden, length)) return true;
     }
     return false;
 }
@@ -60,14 +59,14 @@ static void add_orphan(struct golden_results *results, const char *name, enum mo
         .name = say_text("%s", name), .kind = kind, .status = GOLDEN_ORPHAN, .golden_path = path};
 }
 
-static bool is_orphan(const struct golden_run *run, const char *golden) {
-    return !is_case(run, golden) && !may_be_needed(run, golden);
+static bool is_orphan(const struct golden_run *run, struct golden_results *results, const char *golden) {
+    return !is_case(run, golden) && !may_be_needed(run, results, golden);
 }
 
 static void add_lines(const struct golden_run *run, struct golden_results *results) {
     for (size_t i = 0; i < run->lock.count; i++) {
         const char *name = run->lock.lines[i].name;
-        if (!is_orphan(run, name)) continue;
+        if (!is_orphan(run, results, name)) continue;
         const bool picture = golden_settings_find(&run->settings, name)->rule->kind != MONGE_GOLDEN_HASH;
         char *path = golden_path(run->folder, name, ".png");
         const bool there = picture && golden_is_file(path);
@@ -81,14 +80,14 @@ static void add_pictures(const struct golden_run *run, struct golden_results *re
     char **names = golden_names(run->folder);
     for (char **name = names; name && *name; name++) {
         const bool picture = golden_settings_find(&run->settings, *name)->rule->kind != MONGE_GOLDEN_HASH;
-        if (picture && !golden_lock_find(&run->lock, *name) && is_orphan(run, *name))
+        if (picture && !golden_lock_find(&run->lock, *name) && is_orphan(run, results, *name))
             add_orphan(results, *name, MONGE_GOLDEN_PNG, golden_path(run->folder, *name, ".png"));
     }
     golden_names_free(names);
 }
 
-void golden_find_orphans(const struct golden_run *run, bool all, struct golden_results *results) {
-    if (!all && !run->settings.root) return;
+void golden_find_orphans(const struct golden_run *run, struct golden_results *results) {
+    if (!results->places.root && results->places.count == 0) return;
     add_lines(run, results);
     add_pictures(run, results);
 }

@@ -21,10 +21,11 @@ struct golden_settings {
     size_t count;
 };
 
-/* Reads FOLDER/golden.yaml, where it is there. kind: of all goldens, whatever it says; NULL: as it says. False, with the
- * reason told. Either way to be freed. */
+/* Reads FOLDER/golden.yaml, where it is there. kind: of all goldens, whatever it says; NULL: as it says. root: the option,
+ * which goes before its `root` if it is given; may be NULL. False, with the reason told. Either way to be freed. */
 bool golden_settings_read(struct golden_settings *settings, const char *folder,
-                          const enum monge_golden_kind *kind, const struct loader *loader);
+                          const enum monge_golden_kind *kind, const struct option_value *root,
+                          const struct loader *loader);
 void golden_settings_free(struct golden_settings *settings);
 
 /* The rule for a scene, by its name. */

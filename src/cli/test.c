@@ -46,7 +46,7 @@ static char *root_from_here(const char *root) {
 static bool find_scenes(struct test *test) {
     struct golden_run *run = &test->run;
     if (test->args.count == 0 && !run->settings.root) {
-        say_usage(COMMAND_TEST, "test: no scene given; `root` in %s would tell where they are",
+        say_usage(COMMAND_TEST, "test: no scene given; --root, or `root` in %s, would tell where they are",
                   run->settings.path);
         return false;
     }
@@ -90,9 +90,8 @@ static bool check_scenes(struct golden_run *run) {
         if (strcmp(sorted[i - 1]->name, sorted[i]->name) != 0) continue;
         good = is_same_file(sorted[i - 1]->path, sorted[i]->path);
         if (!good)
-            say_error(
-                "%s and %s would have the same golden, %s: name their folder, or give golden.yaml a `root`",
-                sorted[i - 1]->path, sorted[i]->path, sorted[i]->name);
+            say_error("%s and %s would have the same golden, %s: give --root, or golden.yaml a `root`",
+                      sorted[i - 1]->path, sorted[i]->path, sorted[i]->name);
         sorted[i]->path = sorted[i - 1]->path;
         sorted[i - 1]->path = NULL;
     }
@@ -121,15 +120,22 @@ static bool name_scenes(struct golden_run *run) {
     return run->scenes && check_scenes(run);
 }
 
-/* Whether the operands tell all scenes, so that what none of them has is an orphan: none is a single file. */
-static bool names_all(const struct arguments *args) {
-    for (size_t i = 0; i < args->count; i++) {
+/* Whether the operands may tell all scenes: each is a folder, and was read. */
+static bool names_all(const struct test *test) {
+    for (size_t i = 0; i < test->args.count; i++) {
         struct stat status;
-        const char *operand = args->operands[i];
-        const bool there = stat(operand, &status) == 0, list = *operand == '@' || strcmp(operand, "-") == 0;
-        if (there ? !S_ISDIR(status.st_mode) : !list && !strpbrk(operand, "*?[")) return false;
+        if (stat(test->args.operands[i], &status) != 0 || !S_ISDIR(status.st_mode)) return false;
     }
-    return true;
+    return test->run.loader.scenes.status == STATUS_YES;
+}
+
+/* Where a golden's scene must be gone from, so that it is an orphan. */
+static void find_places(struct test *test) {
+    struct golden_places *places = &test->results.places;
+    const char *root = test->run.settings.root;
+    if (!names_all(test)) return;
+    if (root) places->root = root_from_here(root);
+    for (size_t i = 0; i < test->args.count && !root; i++) golden_places_add(places, test->args.operands[i]);
 }
 
 /* ---- The folder of the run ---- */
@@ -250,6 +256,13 @@ static enum status judge(const struct test *test) {
     return worst;
 }
 
+static void mention_elsewhere(const struct test *test) {
+    const size_t count = test->results.elsewhere;
+    if (count == 0 || test->teller.tap || test->teller.quiet) return;
+    fprintf(test->teller.out, "%zu golden%s of scenes that are not in this run\n", count,
+            count == 1 ? " is" : "s are");
+}
+
 static void hint(const struct test *test) {
     bool can = false, orphans = false;
     for (size_t i = 0; i < test->results.count; i++) {
@@ -274,7 +287,8 @@ static enum status run_test(struct test *test) {
     if (run->count > 0) batch_run(&batch);
     if (!gather(test)) return STATUS_TROUBLE;
     const size_t first_orphan = test->results.count;
-    golden_find_orphans(run, names_all(&test->args), &test->results);
+    find_places(test);
+    golden_find_orphans(run, &test->results);
     for (size_t i = first_orphan; i < test->results.count; i++)
         golden_tell(&test->teller, &test->results.cases[i]);
     test->results.seconds = clock_seconds() - test->begun;
@@ -284,6 +298,7 @@ static enum status run_test(struct test *test) {
     bool good = !wants(test, OPTION_UPDATE_ONLY_FAILED) || take_new(test);
     good &= golden_files_write(&test->results, run->output, test->args.option);
     interrupt_settle();
+    mention_elsewhere(test);
     hint(test);
     return good ? judge(test) : STATUS_TROUBLE;
 }
@@ -320,7 +335,7 @@ static bool begin(struct test *test, const struct arguments *args) {
     const enum monge_golden_kind kind = (enum monge_golden_kind)option[OPTION_GOLDEN_KIND].choice;
     return loader_begin(&run->loader, args) &&
            golden_settings_read(&run->settings, run->folder, option[OPTION_GOLDEN_KIND].given ? &kind : NULL,
-                                &run->loader) &&
+                                &option[OPTION_ROOT], &run->loader) &&
            find_scenes(test) && name_scenes(run) && golden_lock_read(&run->lock, run->folder) &&
            prepare_folder(run);
 }
