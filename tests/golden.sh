@@ -253,7 +253,7 @@ mv kept.yaml s/two.yaml
 exits 1 accept --golden g --prune; err_has 'two is left as it is: its scene is there again'; there g/two.png
 exits 0 test --golden g
 scene one.yaml blue
-exits 2 test s/one.yaml one.yaml --golden g; err_has 's/one.yaml and one.yaml would have the same golden, one: give --root, or golden.yaml a `root`'
+exits 2 test s/one.yaml one.yaml --golden g; err_has "one.yaml: it is not below \`root\`, $work/s"; out_has '1 golden: 1 same'
 exits 0 test s s/one.yaml --golden g; out_has '3 goldens: 3 same'
 rm one.yaml
 
@@ -287,6 +287,12 @@ for kind in png hash; do
     scene s/two.yaml gold; exits 1 accept --golden g --prune; err_has 'two is left as it is: its scene is there again'
     rm s/two.yaml; exits 1 test s --golden g -q; mv s away; exits 1 accept --golden g --prune; err_has 'two is left as it is'; mv away s
     ok "$kind: and still are" [ "$(sums g)" = "$(cat before)" ]
+    # other folders of an earlier run
+    scene s/two.yaml gold; scene extra/in/more.yaml lime; rm -rf g/*.png g/in g/golden.lock; exits 0 test s extra --golden g --update-only-failed -q; sums g >before
+    exits 0 test s --golden g; out_has '1 golden is of scenes that are not in this run'; exits 0 accept --golden g --prune
+    exits 0 test extra --golden g; out_has '3 goldens are of scenes'; exits 0 accept --golden g --prune; ok "$kind: all are kept" [ "$(sums g)" = "$(cat before)" ]
+    mv extra/in/more.yaml s/more.yaml; exits 1 test s --golden g; says orphan in/more; out_lacks 'not in this run'
+    rm -r extra s/more.yaml; exits 1 test s --golden g; says orphan in/more; exits 0 accept --golden g --prune; rm s/two.yaml; sums g >before
     # an operand that is nothing: the run is not of all
     mkdir empty; exits 2 test s empty --golden g; err_has 'there is no scene in this folder'; out_lacks orphan
     exits 2 test empty --golden g; out_lacks orphan; rmdir empty
@@ -303,6 +309,7 @@ exits 2 test s --golden g --root s/in; err_has 's/one.yaml: it is not below the 
 exits 2 test s --golden g --root none; err_has '--root none: No such file or directory'
 : | "$monge" test @- --golden g --root s >out 2>err; status=$?; last='test @-'; ok 'an empty list' [ $status -eq 0 ]
 err_has 'the list is empty: nothing to test'; out_has '0 goldens'
+fresh; scene other/one.yaml red; exits 2 test s other --golden g; err_has 's/one.yaml and other/one.yaml would have the same golden, one: give --root, or golden.yaml a `root`'; rm -r other
 fresh; exits 1 test 's/**/*.yaml' --golden g; says new one; says new 'in/a b%'
 
 # ---- Tolerances ----

@@ -129,7 +129,7 @@ static bool was_in_run(const struct acceptance *a, const char *scene) {
 
 /* The golden is called as its scene, or that and what frames and parameters add behind a `-`. What a scene of the run had
  * no golden for is none of its. */
-static bool scene_is_back(const struct acceptance *a, const char *name) {
+static bool scene_is_back(struct acceptance *a, const char *name) {
     char *scene = say_text("%s", name);
     bool back = false;
     for (char *end = scene + strlen(scene); end && !back; end = strrchr(scene, '-')) {

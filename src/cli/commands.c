@@ -309,8 +309,8 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                  "The new pictures of what has failed, and results.json, are in the folder of the run, for "
                  "`monge accept` "
                  "to take. Orphans are looked for where no scenes are given, or folders alone; a golden "
-                 "whose scene is still there, below the root or else in a folder of the run or one above it, "
-                 "is none.",
+                 "whose scene is still there, below the root or else in a folder of the run, one above it, "
+                 "or elsewhere below the current one, is none.",
                  "Exit status 1 where anything is not the same. grammar/testing.md is the page about it.",
                  LIMITS_TEXT},
             .examples = {{"monge test scenes/ --golden goldens/", "all scenes of a folder"},

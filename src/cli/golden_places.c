@@ -19,14 +19,15 @@ void golden_places_free(struct golden_places *places) {
     for (size_t i = 0; i < places->count; i++) free(places->folders[i]);
     free(places->folders);
     free(places->root);
+    matches_free(&places->others);
     *places = (struct golden_places){0};
 }
 
-/* In the folder, or in any above it. */
-static bool is_in_or_above(const char *folder, const char *name, const struct monge_limits *limits) {
+/* In the folder, or, with `above`, in any above it. */
+static bool is_in(const char *folder, bool above, const char *name, const struct monge_limits *limits) {
     char *real = realpath(folder, NULL);
     bool there = !real || scene_is_in(real, name, limits);
-    for (char *slash; !there && (slash = strrchr(real, '/'));) {
+    for (char *slash; above && !there && (slash = strrchr(real, '/'));) {
         *slash = '\0';
         there = scene_is_in(real, name, limits);
     }
@@ -34,16 +35,51 @@ static bool is_in_or_above(const char *folder, const char *name, const struct mo
     return there;
 }
 
-bool golden_places_have(const struct golden_places *places, const char *name,
-                        const struct monge_limits *limits) {
-    if (places->root) {
-        char *real = realpath(places->root, NULL);
-        const bool there = !real || scene_is_in(real, name, limits);
+/* ---- Elsewhere ---- */
+
+static bool is_below_any(const struct golden_places *places, const char *path) {
+    bool below = false;
+    for (size_t i = 0; i < places->count && !below; i++) {
+        char *real = realpath(places->folders[i], NULL);
+        char *name = real ? scene_name_below(real, path, path) : NULL;
+        below = name != NULL;
+        free(name);
         free(real);
-        return there;
     }
+    return below;
+}
+
+static void search(struct golden_places *places) {
+    struct matches *others = &places->others;
+    places->searched = true;
+    *others = matches_find("**/*.[yY]*");
+    size_t kept = 0;
+    for (size_t i = 0; i < others->count; i++)
+        if (scene_extension(others->paths[i]) && !is_below_any(places, others->paths[i]))
+            others->paths[kept++] = others->paths[i];
+        else
+            free(others->paths[i]);
+    others->count = kept;
+}
+
+/* Whether the path is that of a scene, and ends in the name. */
+static bool is_called(const char *path, const char *name, const struct monge_limits *limits) {
+    const size_t end = (size_t)(scene_extension(path) - path), length = strlen(name);
+    if (end < length || strncmp(path + end - length, name, length) != 0) return false;
+    return (end == length || path[end - length - 1] == '/') && scene_kind(path, limits) == MONGE_TEXT_SCENE;
+}
+
+static bool is_elsewhere(struct golden_places *places, const char *name, const struct monge_limits *limits) {
+    if (!places->searched) search(places);
+    for (size_t i = 0; i < places->others.count; i++)
+        if (is_called(places->others.paths[i], name, limits)) return true;
+    return false;
+}
+
+bool golden_places_have(struct golden_places *places, const char *name, const struct monge_limits *limits) {
+    if (places->root) return is_in(places->root, false, name, limits);
     bool there = places->count == 0;
     for (size_t i = 0; i < places->count && !there; i++)
-        there = is_in_or_above(places->folders[i], name, limits);
-    return there;
+        there = is_in(places->folders[i], true, name, limits);
+    return there || is_elsewhere(places, name, limits);
 }

@@ -148,6 +148,6 @@ struct golden_rule *golden_settings_find(const struct golden_settings *settings,
 }
 
 char *golden_settings_name(const struct golden_settings *settings, const struct scene_file *scene) {
-    char *name = settings->root ? scene_name_below(settings->root, scene->path) : NULL;
-    return name ? name : say_text("%s", scene->name);
+    if (!settings->root) return say_text("%s", scene->name);
+    return scene_name_below(settings->root, scene->path, scene->name);
 }

@@ -31,7 +31,7 @@ void golden_settings_free(struct golden_settings *settings);
 /* The rule for a scene, by its name. */
 struct golden_rule *golden_settings_find(const struct golden_settings *settings, const char *name);
 
-/* The name of a scene: from the root, where it lies below it, else the one that it has. To be freed. */
+/* The name of a scene: from the root, where there is one; NULL: it is not below that. To be freed. */
 char *golden_settings_name(const struct golden_settings *settings, const struct scene_file *scene);
 
 #endif

@@ -33,10 +33,11 @@ char *scene_place(const char *path) {
     return say_text("%s%s%s", real, strcmp(real, "/") == 0 ? "" : "/", base);
 }
 
-char *scene_name_below(const char *root, const char *path) {
+char *scene_name_below(const char *root, const char *path, const char *otherwise) {
     char *place = scene_place(path);
+    if (!place) return say_text("%s", otherwise);
     const size_t length = strcmp(root, "/") == 0 ? 0 : strlen(root);
-    const bool below = place && strncmp(place, root, length) == 0 && place[length] == '/';
+    const bool below = strncmp(place, root, length) == 0 && place[length] == '/';
     char *name = below ? scene_name(place + length + 1) : NULL;
     free(place);
     return name;

@@ -13,8 +13,9 @@ char *scene_name(const char *path);
 /* The path from the root of the machine, its folders without links and dots. NULL: its folder is not there. To be freed. */
 char *scene_place(const char *path);
 
-/* The name from `root`, which is such a path. NULL: the file is not below it. To be freed. */
-char *scene_name_below(const char *root, const char *path);
+/* The name from `root`, which is such a path; NULL: the file is not below it. Where its folder is not there, `otherwise`. To
+ * be freed. */
+char *scene_name_below(const char *root, const char *path, const char *otherwise);
 
 /* What the file is; of one that cannot be read, MONGE_TEXT_SCENE: so that its reading is what tells. limits may be NULL. */
 enum monge_text_kind scene_kind(const char *path, const struct monge_limits *limits);

@@ -319,15 +319,11 @@ static void forget_name(struct scene_file *scene) {
     scene->name = NULL;
 }
 
-/* Of a scene whose folder is not there, the reading tells. */
 static void name_from(struct search *search, const char *root, struct scene_file *scene) {
-    char *name = scene_name_below(root, scene->path), *place = scene_place(scene->path);
-    if (name || place) {
-        free(scene->name);
-        scene->name = name;
-    }
-    if (place && !name) report_trouble(search, scene->path, "it is not below the folder of --root");
-    free(place);
+    char *name = scene_name_below(root, scene->path, scene->name);
+    if (!name) report_trouble(search, scene->path, "it is not below the folder of --root");
+    free(scene->name);
+    scene->name = name;
 }
 
 static void name_from_root(struct search *search) {

@@ -112,10 +112,14 @@ static bool name_scenes(struct golden_run *run) {
     run->scenes = calloc(found->count + 1, sizeof *run->scenes);
     if (!run->scenes) say_error("out of memory");
     for (size_t i = 0; run->scenes && i < found->count; i++) {
-        struct golden_scene *scene = &run->scenes[run->count++];
-        scene->path = found->all[i].path;
-        scene->name = golden_settings_name(&run->settings, &found->all[i]);
-        scene->rule = golden_settings_find(&run->settings, scene->name);
+        char *name = golden_settings_name(&run->settings, &found->all[i]);
+        if (name) {
+            run->scenes[run->count++] = (struct golden_scene){
+                .path = found->all[i].path, .name = name, .rule = golden_settings_find(&run->settings, name)};
+            continue;
+        }
+        say_error("%s: it is not below `root`, %s", found->all[i].path, run->settings.root);
+        run->loader.scenes.status = STATUS_TROUBLE;
     }
     return run->scenes && check_scenes(run);
 }
