@@ -185,9 +185,10 @@ bool monge_text_read(const char *path, const struct monge_limits *limits, struct
 
 /* What a text is by the keys at its top. */
 enum monge_text_kind {
-    MONGE_TEXT_SCENE, /* it has `scene`; or it is not YAML, so that what is wrong with it will be told */
-    MONGE_TEXT_DEFINITIONS, /* all of its keys may be in a file that scenes include */
-    MONGE_TEXT_OTHER,
+    MONGE_TEXT_SCENE, /* it has `scene`, or a key of a scene beside one that is none, or nearly `scene`; or it is not
+                         YAML: so that what is wrong with it will be told */
+    MONGE_TEXT_DEFINITIONS, /* it has no `scene`, and all of its keys may be in a file that scenes include */
+    MONGE_TEXT_OTHER,       /* it has no key of a scene */
 };
 enum monge_text_kind monge_text_kind(const struct monge_text *text, const struct monge_limits *limits);
 

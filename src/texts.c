@@ -9,6 +9,7 @@
 #include "lang/format.h"
 #include "lang/import.h"
 #include "lang/node.h"
+#include "lang/spelling.h"
 
 static bool write_text(const char *text, size_t size, const char *path, struct diagnostics *diag) {
     struct replacement file;
@@ -111,13 +112,22 @@ static bool forget(void *context, struct node *item) {
 
 static void ignore(void *context, struct node *root) { (void)context, (void)root; }
 
+static bool is_nearly_scene(const char *key) {
+    struct spelling spelling = spelling_begin(key);
+    spelling_offer(&spelling, "scene");
+    return spelling.best;
+}
+
 static enum monge_text_kind kind_of(const struct node *root) {
     if (root->kind != NODE_MAPPING || root->count == 0) return MONGE_TEXT_OTHER;
     if (node_get(root, "scene")) return MONGE_TEXT_SCENE;
-    for (const struct node *key = root->first; key; key = key->next->next)
-        if (key->kind != NODE_SCALAR || grammar_find_key(&grammar_kinds[KIND_FILE], key->text) < 0)
-            return MONGE_TEXT_OTHER;
-    return MONGE_TEXT_DEFINITIONS;
+    uint32_t known = 0;
+    for (const struct node *key = root->first; key; key = key->next->next) {
+        if (key->kind != NODE_SCALAR) continue;
+        known += grammar_find_key(&grammar_kinds[KIND_FILE], key->text) >= 0;
+        if (is_nearly_scene(key->text)) return MONGE_TEXT_SCENE;
+    }
+    return known == root->count ? MONGE_TEXT_DEFINITIONS : known > 0 ? MONGE_TEXT_SCENE : MONGE_TEXT_OTHER;
 }
 
 static enum monge_text_kind parse_kind(struct arena *arena, struct diagnostics *diag,

@@ -5,6 +5,7 @@
 
 monge=$(realpath "${1:-build/monge}")
 [ -x "$monge" ] || { echo "batch: no program $monge" >&2; exit 1; }
+root=$(realpath "$(dirname "$0")/..")
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work" || exit 1
@@ -65,8 +66,9 @@ printf '{"scene": [{"sphere": {}}]}' >s/json.yaml
 echo text >s/README.md
 all=$(printf 's/%s: ok\n' a.yaml inner/b.yml inner/deep/c.yaml json.yaml)
 
-exits 0 check s; out_is "$all"; err_has '2 files without a `scene` are left out'
+exits 0 check s; out_is "$all"; err_has '2 files without a `scene` are left out: s/ci.yml, s/defs.yaml'
 exits 0 check -q s; no_err
+exits 0 info s; err_has '1 file without a `scene` is left out: s/ci.yml'; err_lacks defs
 exits 0 check 's/**'; out_is "$all"
 exits 0 check 's/**/[bc].y*ml'; out_is "$(printf 's/inner/%s: ok\n' b.yml deep/c.yaml)"
 exits 0 check 's/*/*.yml'; out_is 's/inner/b.yml: ok'
@@ -88,9 +90,71 @@ last='check - <scene'; "$monge" check - <s/a.yaml >out 2>err; out_is '-: ok'
 last='check -'; printf 'gone.yaml\ns/a.yaml\n' | "$monge" check - >out 2>err; status=$?
 ok "a list with what has gone" [ $status -eq 2 ]; err_has 'gone.yaml: No such file'; out_is "$(printf 'gone.yaml: not read\ns/a.yaml: ok')"
 echo '@list' >lists; exits 2 check @lists; err_has 'a list cannot have a list in it'
-exits 2 check @/dev/null; err_has 'the list is empty'
+exits 2 check @/dev/null; err_has '/dev/null: the list is empty'
+for command in check render; do # an empty list of another program is none of our trouble
+    last="$command @-"; printf '# none\n\n' | "$monge" $command @- >out 2>err; status=$?
+    ok "nothing on standard input" [ $status -eq 0 ]; ok "is told" grep -qx "the list is empty: nothing to $command" err
+    "$monge" $command @- --format json </dev/null >out 2>err; status=$?; ok "a document has no notes" sh -c '! grep -h "the list" out err'
+done
+"$monge" render @- -q -o nothing/ </dev/null 2>err; no_err; missing nothing
+exits 0 render @- s/a.yaml "${small[@]}" -o nothing/; there nothing/a.png
+exits 1 check -; err_has 'the file is empty'
+printf '\xEF\xBB\xBF  s/a.yaml \t\r\n  # not this\n \ts/inner/b.yml\n' >marked; cp s/a.yaml 's/#n.yaml'; printf ' #s/json.yaml\ns/#n.yaml\n' >>marked
+exits 0 check @marked; out_is "$(printf 's/%s: ok\n' a.yaml inner/b.yml '#n.yaml')"
+cp list list.txt; exits 2 check list.txt s/a.yaml; err_has 'list.txt: a list of scenes is given as @list.txt'; out_is 's/a.yaml: ok'
+cp s/a.yaml scene.txt; exits 0 check scene.txt; out_is 'scene.txt: ok'
+last='check (a pipe)'; "$monge" check <(cat s/a.yaml) >out 2>err; status=$?; ok "a pipe is read once" [ $status -eq 0 ]
+
+# what is between NULs is a name as it stands
+mkdir names; odd=("names/two
+lines.yaml" ' names/blank .yaml' '@names/at.yaml' '#names/hash.yaml' 'names/[ab].yaml' -.yaml)
+mkdir -p ' names' '@names' '#names'; for f in "${odd[@]}"; do cp s/a.yaml "./$f"; done
+printf '%s\0' "${odd[@]}" >zeros; printf '%s\0\0%s' "${odd[@]:0:2}" >unended
+for from in @zeros - @-; do
+    last="check $from <zeros"; "$monge" check $from <zeros >out 2>err; status=$?
+    ok "all names" [ $status -eq 0 ]; out_is "$(printf '%s: ok\n' "${odd[@]}")"
+done
+exits 0 check @unended; out_is "$(printf '%s: ok\n' "${odd[@]:0:2}")"
+last='render @-'; find names -name '*.yaml' -print0 | sort -z | "$monge" render @- -q "${small[@]}" -o zero/ 2>err; there zero/'two
+lines.png' zero/'[ab].png'
+
+# the recipe of the README, in a repository
+if have git; then
+    mkdir repo && cd repo || exit 1
+    recipe=$(grep '^git diff' "$root/README.md"); recipe=${recipe/monge render/'"$monge" render -q'}
+    git() { command git -c user.name=n -c user.email=e -c core.quotePath=true "$@"; }
+    export monge; export -f git
+    changed() { rm -rf changed; last=$recipe; bash -o pipefail -c "$recipe" >out 2>err; status=$?; }
+    mkdir -p 'a b'; for f in same.yaml grün.yaml gone.yaml 'a b/same.yaml'; do cp ../s/a.yaml "$f"; done
+    sed -i '1i image: {size: [16, 12], samples: 1}' ./*.yaml */*.yaml
+    git init -q . && git add . && git commit -qm one
+    changed; ok "nothing has changed" [ $status -eq 0 ]; missing changed
+    echo '# more' >>grün.yaml; echo '# more' >>'a b/same.yaml'; echo '# more' >>same.yaml; rm gone.yaml; echo x >x.txt; git add x.txt
+    changed; ok "the recipe" [ $status -eq 0 ]; there changed/grün.png changed/same.png 'changed/a b/same.png'
+    ok "and no more" [ "$(find changed -type f | wc -l)" -eq 3 ]
+    unset -f git; cd ..
+else left_out "the recipe of the README: no git"; fi
 exits 2 check @none; err_has 'cannot read none'
 last='check - @-'; "$monge" check - @- <list >out 2>err; status=$?; ok "standard input twice" [ $status -eq 2 ]; err_has 'standard input can be only one'
+
+# what has a key of a scene beside others, or nearly `scene`, is meant as one; what has none is told, but for settings by name
+mkdir kinds; echo 'scene: [{sphere: {}}]' >kinds/a.yaml
+for key in scenes Scene scen; do
+    echo "$key: [{sphere: {}}]" >kinds/slip.yaml
+    exits 1 check kinds; err_has "kinds/slip.yaml:1:1: error[unknown-key]: a scene has no key \`$key\`"; err_has 'did you mean `scene`?'
+    exits 1 render -q kinds "${small[@]}" -o slip/; there slip/a.png; missing slip/slip.png
+done
+printf 'camera: {fov: 40}\nsphere: {}\n' >kinds/slip.yaml; exits 1 check kinds; err_has 'no key `sphere`'
+rm kinds/slip.yaml; printf 'root: .\nkind: hash\n' >kinds/golden.yaml; printf 'include: x.yaml\nparams: {a: 1}\n' >kinds/lib.yaml
+exits 0 render kinds "${small[@]}" -o slip/; err_lacks 'left out'
+exits 0 check kinds; err_has '2 files without a `scene` are left out: kinds/golden.yaml, kinds/lib.yaml'
+cp kinds/a.yaml kinds/B.YAML; cp kinds/a.yaml kinds/c.Yml; cp kinds/a.yaml kinds/d.yamlx
+exits 0 check -q kinds; exits 0 check kinds; out_is "$(printf 'kinds/%s: ok\n' B.YAML a.yaml c.Yml)"
+exits 0 render -q kinds "${small[@]}" -o case/; there case/a.png case/B.png case/c.png
+exits 0 render -q kinds/B.YAML "${small[@]}"; there B.png
+for i in $(seq 10 21); do echo 'on: push' >kinds/$i.yml; done
+exits 0 info kinds; err_has '12 files without a `scene` are left out: kinds/10.yml, '; err_has 'kinds/19.yml, ...'; err_lacks kinds/20.yml
+exits 0 check kinds; err_has 'kinds/21.yml, kinds/golden.yaml'
 
 printf 'scene:   []\n' >s/odd.yaml; printf 'params:   {r: 1}\n' >s/defs.yaml
 exits 1 fmt --check s; out_is "$(printf 's/%s\n' defs.yaml json.yaml odd.yaml)"
@@ -102,7 +166,29 @@ exits 0 render -q s "${small[@]}"; there a.png inner/b.png inner/deep/c.png; mis
 exits 0 render -q s "${small[@]}" -o 'p/{name}-x.png'; there p/a-x.png p/inner/deep/c-x.png
 mkdir made; exits 0 render -q s/ "${small[@]}" -o made; there made/inner/b.png
 cat list | "$monge" render - -q "${small[@]}" -o l/ 2>err; there l/a.png l/b.png
-exits 2 render s/a.yaml s/inner/deep "${small[@]}" s/a.yaml; err_has 'would both write'
+exits 0 render s/a.yaml s/inner/deep "${small[@]}" ./s/a.yaml "$work/s/a.yaml" s/a.yaml; ok "once is enough" [ "$(grep -c '^wrote a.png' err)" -eq 1 ]
+printf 's/a.yaml\ns/a.yaml\n' >twice; exits 0 check @twice; out_is 's/a.yaml: ok'
+exits 0 render -q s s/inner "${small[@]}" -o other/; there other/inner/b.png other/b.png
+mkdir -p t/inner; cp s/a.yaml t; ln s/inner/b.yml t/inner/b.yml
+exits 2 render s/a.yaml t/a.yaml s/a.yaml; err_has 's/a.yaml and t/a.yaml would both write'; err_has 'with --root DIR they keep their folders'
+exits 2 render nowhere.yaml nowhere/ -o n/; missing n; err_has 'cannot read nowhere/'
+exits 2 render 'no*.yaml' empty -o n/; missing n
+exits 2 render nowhere.yaml s/a.yaml "${small[@]}" -o n/; there n/a.png
+
+# A pattern keeps the folders that vary; with a root all scenes are called from there.
+exits 0 render -q 's/**/[abc].y*ml' "${small[@]}" -o v/; there v/a.png v/inner/b.png v/inner/deep/c.png
+exits 0 render -q './s//inn*/*/c.yaml' "${small[@]}" -o v2/; there v2/inner/deep/c.png
+exits 0 render -q "$work"'/s/inner/d*' s/inner/'*.yml' "${small[@]}" -o v3/; there v3/deep/c.png v3/b.png
+exits 0 render -q '[s]/../s/inner/b*' "${small[@]}" -o v4/; there v4/s/inner/b.png; (cd s && "$monge" render -q '**' "${small[@]}" -o ../v5/); there v5/inner/b.png
+exits 0 render -q s/inner/b.yml s/inner/deep '[s]/a.yaml' @twice --root s "${small[@]}" -o v6/; there v6/a.png v6/inner/b.png v6/inner/deep/c.png
+ok "and no more" [ "$(find v6 -type f | wc -l)" -eq 3 ]
+exits 0 render -q s/a.yaml t/a.yaml --root . "${small[@]}" -o 'v7/{name}-x.png'; there v7/s/a-x.png v7/t/a-x.png
+exits 2 render -q s/inner t/a.yaml --root ./s/inner/.. "${small[@]}" -o v8/; err_has 't/a.yaml: it is not below the folder of --root'; there v8/inner/b.png
+exits 2 render s/a.yaml --root nowhere -o v9/; err_has '--root nowhere: No such file or directory'; missing v9
+exits 2 render no/a.yaml --root s; err_has 'cannot read no/a.yaml'
+exits 0 render -q s/a.yaml --root / "${small[@]}" -o v9/; there "v9$work/s/a.png"
+last='render - --root'; "$monge" render - --root s "${small[@]}" <s/a.yaml >out 2>err; status=$?; ok "a scene on standard input has no folder" [ $status -eq 0 ]
+exits 2 check s --root s; err_has 'no option `--root`'
 
 # ---- Several at once: the order is that of the batch ----
 

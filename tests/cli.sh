@@ -336,8 +336,7 @@ ok "--no-shadows is --shadow 1" cmp x.png y.png
 
 rm -f one.png two.png x.png
 exits 2 render one.yaml two.yml -o x.png; err_has '-o x.png is one file for 2 scenes'; missing x.png
-exits 2 render a/one.yaml b/one.yaml; err_has 'a/one.yaml and b/one.yaml would both write'; missing one.png
-exits 2 render one.yaml ./one.yaml; err_has 'would both write'; missing one.png
+exits 2 render a/one.yaml b/one.yaml; err_has 'a/one.yaml and b/one.yaml would both write'; err_has 'one.png; with --root DIR they keep their folders'; missing one.png
 ln -s . link
 exits 2 render one.yaml two.yml -o 'link/{name}.png' --stats one.png; err_has 'would both write'; missing one.png
 exits 2 render one.yaml -o one.yaml; err_has 'one.yaml would be written over'

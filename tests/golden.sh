@@ -81,7 +81,7 @@ fresh() {
 
 fresh
 exits 2 test s; err_has '--golden DIR is missing'
-exits 2 test --golden g; err_has 'test: no scene given; `root` in g/golden.yaml'
+exits 2 test --golden g; err_has 'test: no scene given; --root, or `root` in g/golden.yaml, would tell where they are'
 exits 2 accept; err_has '--golden DIR is missing'
 exits 2 accept --golden g; err_has 'monge-test/results.json is not there: `monge test` makes it'
 exits 2 test none.yaml --golden g; says broken none; out_has 'No such file or directory'
@@ -293,12 +293,13 @@ exits 0 accept --golden g
 exits 0 test 's/in/a b%.yaml' --golden g; says same 'in/a b%'; out_has '1 golden: 1 same'
 exits 0 test s/in --golden g; says same 'in/a b%'
 mv s/two.yaml kept.yaml
-exits 1 test s/one.yaml --golden g; says orphan two
+exits 0 test s/one.yaml --golden g; out_lacks orphan
+exits 1 test --golden g; says orphan two; exits 1 test s/in --golden g; says orphan two
 mv kept.yaml s/two.yaml
 exits 1 accept --golden g --prune; err_has 'two is left as it is: its scene is there again'; there g/two.png
 exits 0 test --golden g
 scene one.yaml blue
-exits 2 test s/one.yaml one.yaml --golden g; err_has 's/one.yaml and one.yaml would have the same golden, one'
+exits 2 test s/one.yaml one.yaml --golden g; err_has "one.yaml: it is not below \`root\`, $work/s"; out_has '1 golden: 1 same'
 exits 0 test s s/one.yaml --golden g; out_has '3 goldens: 3 same'
 rm one.yaml
 
@@ -317,6 +318,61 @@ printf 'rules: [{scenes: turn, options: --frames all}]\n' >g/golden.yaml
 printf 'image: {size: [20, 10], samples: 1}\nanimation: {frames: 3}\nscene: [{sphere: {}}]\n' >s/turn.yaml
 cp s/one.yaml s/turn-0002.yaml
 exits 2 test s --golden g -q; err_has 's/turn.yaml and s/turn-0002.yaml have the same golden, turn-0002'
+
+# ---- Orphans are told by runs of folders alone, and not of scenes that are there ----
+
+for kind in png hash; do
+    fresh "kind: $kind"; exits 0 test s --golden g --update-only-failed -q; sums g >before
+    rm s/two.yaml # so that there is an orphan to find
+    for from in 's/*.yaml' 's/**/*.yaml' s/one.yaml @list; do
+        echo s/one.yaml >list
+        for root in '' --root=s; do
+            exits 0 test "$from" --golden g $root; says same one; out_lacks orphan
+            exits 0 accept --golden g --prune; out_has '0 taken'
+        done
+    done
+    last='test - --root s'; echo 's/in/a b%.yaml' | "$monge" test - --golden g --root s >out 2>err; status=$?
+    ok 'a list on stdin' [ $status -eq 0 ]; says same 'in/a b%'; out_lacks orphan; exits 0 accept --golden g --prune
+    ok "$kind: nothing is removed" [ "$(sums g)" = "$(cat before)" ]
+    # a part of the folder: names count from there, and one scene has none of its goldens; what is gone is still found
+    exits 1 test s/in --golden g; says new 'a b%'; says orphan two; out_has '2 goldens are of scenes that are not in this run'
+    ok 'the others are no orphans' [ "$(grep -c ^orphan out)" -eq 1 ]
+    (cd s && "$monge" test in --golden ../g --output ../monge-test >../out); says orphan two; ok 'from another folder' [ "$(grep -c ^orphan out)" -eq 1 ]
+    exits 1 test s/in --golden g --root s; says same 'in/a b%'; says orphan two; out_has '1 golden is of scenes that are not in this run'
+    scene s/two.YML gold; exits 0 test s/in --golden g --root s; out_lacks orphan
+    mv s/two.YML s/two.yaml; exits 1 test s/in --golden g; out_lacks orphan; out_has '3 goldens are of scenes'
+    echo 'params: {a: 1}' >s/two.yaml; exits 1 test s --golden g; says orphan two # a library makes no picture
+    echo 'Scene: [{sphere: {}}]' >s/two.yaml; exits 1 test s --golden g; says broken two; out_has 'did you mean `scene`?'; out_lacks orphan
+    ok "$kind: the goldens are as they were" [ "$(sums g)" = "$(cat before)" ]
+    # what comes back, or cannot be looked for any more, before the goldens go
+    rm s/two.yaml; exits 1 test s --golden g; says orphan two
+    scene s/two.yaml gold; exits 1 accept --golden g --prune; err_has 'two is left as it is: its scene is there again'
+    rm s/two.yaml; exits 1 test s --golden g -q; mv s away; exits 1 accept --golden g --prune; err_has 'two is left as it is'; mv away s
+    ok "$kind: and still are" [ "$(sums g)" = "$(cat before)" ]
+    # other folders of an earlier run
+    scene s/two.yaml gold; scene extra/in/more.yaml lime; rm -rf g/*.png g/in g/golden.lock; exits 0 test s extra --golden g --update-only-failed -q; sums g >before
+    exits 0 test s --golden g; out_has '1 golden is of scenes that are not in this run'; exits 0 accept --golden g --prune
+    exits 0 test extra --golden g; out_has '3 goldens are of scenes'; exits 0 accept --golden g --prune; ok "$kind: all are kept" [ "$(sums g)" = "$(cat before)" ]
+    mv extra/in/more.yaml s/more.yaml; exits 1 test s --golden g; says orphan in/more; out_lacks 'not in this run'
+    rm -r extra s/more.yaml; exits 1 test s --golden g; says orphan in/more; exits 0 accept --golden g --prune; rm s/two.yaml; sums g >before
+    # an operand that is nothing: the run is not of all
+    mkdir empty; exits 2 test s empty --golden g; err_has 'there is no scene in this folder'; out_lacks orphan
+    exits 2 test empty --golden g; out_lacks orphan; rmdir empty
+    exits 1 test s --golden g -q; exits 0 accept --golden g --prune; out_has 'removed two'
+done
+
+# --root: the same names for every operand, before the root of golden.yaml
+fresh 'root: nowhere'
+exits 2 test --golden g; err_has 'g/golden.yaml: `root`: g/nowhere: No such file'
+exits 1 test --golden g --root s; says new one; says new 'in/a b%'
+exits 1 test 's/in/*.yaml' s/one.yaml --golden g --root ./s/../s; says new one; says new 'in/a b%'
+exits 1 test s s/in s/one.yaml --golden g --root .; says new s/one; says new 's/in/a b%'; out_has '3 goldens: 3 new'
+exits 2 test s --golden g --root s/in; err_has 's/one.yaml: it is not below the folder of --root'; says new 'a b%'
+exits 2 test s --golden g --root none; err_has '--root none: No such file or directory'
+: | "$monge" test @- --golden g --root s >out 2>err; status=$?; last='test @-'; ok 'an empty list' [ $status -eq 0 ]
+err_has 'the list is empty: nothing to test'; out_has '0 goldens'
+fresh; scene other/one.yaml red; exits 2 test s other --golden g; err_has 's/one.yaml and other/one.yaml would have the same golden, one: give --root, or golden.yaml a `root`'; rm -r other
+fresh; exits 1 test 's/**/*.yaml' --golden g; says new one; says new 'in/a b%'
 
 # ---- Tolerances ----
 

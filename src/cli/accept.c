@@ -147,24 +147,14 @@ static bool was_in_run(const struct acceptance *a, const char *scene) {
     return bsearch(&scene, a->scenes, a->scene_count, sizeof scene, compare_names);
 }
 
-static bool is_below_root(const struct acceptance *a, const char *scene) {
-    bool there = false;
-    for (int i = 0; i < 2 && !there && a->settings.root; i++) {
-        char *path = golden_path(a->settings.root, scene, i == 0 ? ".yaml" : ".yml");
-        there = golden_is_file(path);
-        free(path);
-    }
-    return there;
-}
-
 /* The golden is called as its scene, or that and what frames and parameters add behind a `-`. What a scene of the run had
  * no golden for is none of its. */
-static bool scene_is_back(const struct acceptance *a, const char *name) {
+static bool scene_is_back(struct acceptance *a, const char *name) {
     char *scene = say_text("%s", name);
     bool back = false;
     for (char *end = scene + strlen(scene); end && !back; end = strrchr(scene, '-')) {
         *end = '\0';
-        back = !was_in_run(a, scene) && is_below_root(a, scene);
+        back = !was_in_run(a, scene) && golden_places_have(&a->results.places, scene, &a->loader.limits.load);
     }
     free(scene);
     return back;
@@ -257,7 +247,7 @@ static bool begin(struct acceptance *a) {
     a->output = option[OPTION_TEST_OUTPUT].given ? option[OPTION_TEST_OUTPUT].text : "monge-test";
     golden_hold(a->folder);
     return limits_read(a->args, &a->loader.limits) &&
-           golden_settings_read(&a->settings, a->folder, NULL, &a->loader) &&
+           golden_settings_read(&a->settings, a->folder, NULL, NULL, &a->loader) &&
            golden_lock_read(&a->lock, a->folder) && read_run(a) && name_scenes(a) && check_globs(a);
 }
 

@@ -14,6 +14,7 @@
 #include "cli/options.h"
 #include "cli/render.h"
 #include "cli/say.h"
+#include "cli/scene_path.h"
 #include "cli/schema.h"
 #include "cli/suggest.h"
 #include "cli/test.h"
@@ -40,13 +41,11 @@
     "pixels (of the picture: 268435456). k, M and G are powers of 1000, of bytes powers of 1024."
 
 #define SCENES_TEXT                                                                                          \
-    "A SCENE is a file; a folder, which stands for all *.yaml and *.yml below it that have a `scene`, by "   \
-    "name "                                                                                                  \
-    "(what is hidden and links to folders are passed by); a pattern in quotes, as 'scenes/**/k*.yaml', in "  \
-    "which "                                                                                                 \
-    "** stands for any folders; or @FILE, a list with one of these a line, where # begins a comment and "    \
-    "paths "                                                                                                 \
-    "are from the current folder. "
+    "A SCENE is a file; a folder, which stands for all *.yaml and *.yml below it that are scenes, by name "  \
+    "(what is hidden, links to folders, and files of definitions are passed by); a pattern in quotes, as "   \
+    "'scenes/**/k*.yaml', in which ** stands for any folders; or @FILE, a list with one of these a line, "   \
+    "where # at the beginning of a line makes it a comment, blanks around it do not count, and paths are "   \
+    "from the current folder. A list with a NUL in it has names between NULs, just as they stand. "
 
 /* Where `make install` puts it, below a prefix that the program does not know. */
 #define IN_DOCUMENTS(file) file ", in share/doc/monge,"
@@ -55,6 +54,8 @@
 const struct option_row OPTION_TABLE[OPTIONS] = {
     [OPTION_OUTPUT] = {"output", 'o', VALUE_FILE, IN_RENDER, "FILE|DIR/|PATTERN", 0, 0,
                        "where the picture goes: a file, a folder, a pattern with {name}, or -"},
+    [OPTION_ROOT] = {"root", 0, VALUE_FILE, IN_RENDER | IN_TEST, "DIR", 0, 0,
+                     "the folder that the names of all scenes count from"},
     [OPTION_DEFINE] =
         {"define", 'D', VALUE_PAIR, IN_RENDER | IN_CHECK | IN_INFO, "NAME=VALUE", 0, 0,
          "set a parameter of the scene; a list a,b,c or a range 1..9:2 makes a sweep; repeatable"},
@@ -188,12 +189,15 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
             .doc = "render scenes to PNG pictures",
             .text =
                 {"Renders each scene to NAME.png in the current folder; NAME is the scene's file name "
-                 "without .yaml or .yml, and of a scene below a folder that is given, the path from "
-                 "there. The options override what the scene says.",
-                 SCENES_TEXT "- is standard input: a list, if each of its lines names something that is "
-                             "there or ends in .yaml or .yml, and else a scene; @- is always a list. The "
-                             "picture of a scene on standard input goes to standard output unless -o says "
-                             "otherwise.",
+                 "without .yaml or .yml; of a scene below a folder that is given, the path from there; of "
+                 "one that a pattern stands for, the path from the first part that varies; with --root, the "
+                 "path from that folder. The options override what the scene says.",
+                 SCENES_TEXT
+                 "- is standard input: a list, if each of its entries names something that is "
+                 "there or ends in .yaml or .yml, and else a scene; @- is always a list, and an "
+                 "empty one is fine. A file that comes twice under the same name counts once. The "
+                 "picture of a scene on standard input goes to standard output unless -o says "
+                 "otherwise.",
                  "-o FILE names the picture of a single scene. For several, -o DIR/ puts the "
                  "pictures into a folder, which is made where it is missing, and in a pattern "
                  "{name} stands for NAME; folders of a pattern are made too. A picture is complete "
@@ -319,13 +323,13 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                  "A golden is a picture, DIR/NAME.png, or a line with its hash in DIR/golden.lock, or both. "
                  "DIR/golden.yaml may have rules: options of render for some scenes, tolerances, kinds of "
                  "goldens; and "
-                 "`root`, the folder of the scenes, which names count from. With it scenes need not be "
-                 "given.",
+                 "`root`, the folder of the scenes, which names count from; --root goes before it. With it "
+                 "scenes need not be given; without it names are as those of render.",
                  "The new pictures of what has failed, and results.json, are in the folder of the run, for "
                  "`monge accept` "
-                 "to take. Orphans are looked for where there is a root, or where all operands are folders, "
-                 "patterns or "
-                 "lists.",
+                 "to take. Orphans are looked for where no scenes are given, or folders alone; a golden "
+                 "whose scene is still there, below the root or else in a folder of the run, one above it, "
+                 "or elsewhere below the current one, is none.",
                  "Exit status 1 where anything is not the same. " IN_DOCUMENTS(
                      "testing.md") " has all of it.",
                  LIMITS_TEXT},
@@ -546,10 +550,7 @@ enum command_id command_find(const char *name) {
     return COMMAND_NONE;
 }
 
-static bool looks_like_a_scene(const char *word) {
-    const char *dot = strrchr(word, '.');
-    return dot && (strcmp(dot, ".yaml") == 0 || strcmp(dot, ".yml") == 0);
-}
+static bool looks_like_a_scene(const char *word) { return scene_extension(word) != NULL; }
 
 enum status command_unknown(const char *name) {
     struct suggestion nearest = {.word = name};

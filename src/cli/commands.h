@@ -34,6 +34,7 @@ enum command_id {
 enum option_id {
     OPTION_OUTPUT,
     OPTION_IMPORT_OUTPUT, /* the same words, but of a scene */
+    OPTION_ROOT,
     OPTION_DEFINE,
     OPTION_FRAMES,
     OPTION_SIZE,

@@ -5,7 +5,7 @@
  *     golden_folder     names of goldens as paths, and the pictures that are there
  *     golden_run        a run of `monge test`: golden_case renders a scene, golden_judge compares its pictures, each a
  *                       case, with their goldens, golden_layers tells what changed, golden_old has the old picture
- *     golden_orphans    goldens whose scene is gone, or has another name
+ *     golden_orphans    goldens whose scene is gone, from the places that golden_places knows, or has another name
  *     golden_results    the run as a JSON document, which golden_reread reads again
  *     golden_tell       the run in a terminal and as TAP; golden_junit as XML; golden_files writes all that is asked for
  *     golden_take       makes the new picture of a case its golden, where that is still the one that the run has found */

@@ -59,14 +59,10 @@ static void begin(struct search *search) {
 
 /* ---- Orphans ---- */
 
-static bool is_below_root(const struct golden_run *run, const char *name) {
-    static const char *const extensions[] = {".yaml", ".yml"};
-    bool there = false;
-    for (int i = 0; i < 2 && !there && run->settings.root; i++) {
-        char *path = golden_path(run->settings.root, name, extensions[i]);
-        there = golden_is_file(path);
-        free(path);
-    }
+/* Whether there is a scene of that name, which the run has not tested. */
+static bool is_elsewhere(const struct search *search, const char *name) {
+    const bool there = golden_places_have(&search->results->places, name, &search->run->loader.limits.load);
+    search->results->elsewhere += there;
     return there;
 }
 
@@ -78,7 +74,7 @@ static bool may_be_needed(const struct search *search, const char *golden) {
     for (char *end = name + strlen(name); end && !needed; end = strrchr(name, '-')) {
         *end = '\0';
         const struct known *known = find(search->scenes, search->run->count, name);
-        needed = known ? is_broken(known->scene) : is_below_root(search->run, name);
+        needed = known ? is_broken(known->scene) : is_elsewhere(search, name);
     }
     free(name);
     return needed;
@@ -182,9 +178,9 @@ static void find_renamed(const struct golden_run *run, struct golden_results *re
     free(all);
 }
 
-void golden_find_orphans(const struct golden_run *run, bool all, struct golden_results *results) {
+void golden_find_orphans(const struct golden_run *run, struct golden_results *results) {
     struct search search = {.run = run, .results = results};
-    if (!all && !run->settings.root) return;
+    if (!results->places.root && results->places.count == 0) return;
     begin(&search);
     add_lines(&search);
     add_pictures(&search);

@@ -73,6 +73,13 @@ static void read_case(const struct monge_value *value, struct golden_case *c) {
     read_hash(value, "golden_file", c->golden_file);
 }
 
+static void read_places(const struct monge_value *root, struct golden_places *places) {
+    places->root = read_text(root, "root");
+    for (const struct monge_value *v = monge_value_first(monge_value_get(root, "folders")); v;
+         v = monge_value_next(v))
+        if (monge_value_text(v)) golden_places_add(places, monge_value_text(v));
+}
+
 static int compare_cases(const void *a, const void *b) {
     return strcmp(((const struct golden_case *)a)->name, ((const struct golden_case *)b)->name);
 }
@@ -100,6 +107,7 @@ static enum golden_reading read_document(struct golden_results *results, const c
     const struct monge_value *root = document ? monge_document_root(document) : NULL;
     const bool others = root && !monge_value_text(root) && !monge_value_get(root, "golden");
     results->folder = read_text(root, "golden");
+    read_places(root, &results->places);
     const bool good = results->folder && read_cases(results, monge_value_get(root, "scenes"));
     const bool unread = monge_diagnostics_failures(diag) > 0;
     if (others) say_error("%s: no results of `monge test`", path);
@@ -125,6 +133,7 @@ void golden_results_free(struct golden_results *results) {
     for (size_t i = 0; i < results->count; i++) golden_case_free(&results->cases[i]);
     free(results->cases);
     free(results->folder);
+    golden_places_free(&results->places);
 }
 
 const struct golden_case *golden_results_find(const struct golden_results *results, const char *name) {

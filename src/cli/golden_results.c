@@ -192,6 +192,18 @@ static void put_case(FILE *out, const struct golden_case *c) {
     fprintf(out, "%.3f}", c->seconds);
 }
 
+static void put_places(FILE *out, const struct golden_places *places) {
+    if (places->root) {
+        fputs(",\n \"root\": ", out);
+        monge_write_json_string(places->root, out);
+    }
+    for (size_t i = 0; i < places->count; i++) {
+        fputs(i == 0 ? ",\n \"folders\": [" : ", ", out);
+        monge_write_json_string(places->folders[i], out);
+    }
+    if (places->count > 0) fputs("]", out);
+}
+
 static void put_head(FILE *out, const struct golden_results *results) {
     char *summary = golden_summary(results),
          *about = say_text("monge %s, %s, in %.1f s", monge_version(), summary, results->seconds);
@@ -200,6 +212,7 @@ static void put_head(FILE *out, const struct golden_results *results) {
     fprintf(out, ",\n \"version\": \"%s\",\n \"program\": \"%s\",\n \"golden\": ", monge_version(),
             monge_program());
     monge_write_json_string(results->folder, out);
+    put_places(out, &results->places);
     fputs(",\n \"summary\": {", out);
     for (enum golden_status s = 0; s < GOLDEN_STATUSES; s++)
         fprintf(out, "%s\"%s\": %zu", s ? ", " : "", GOLDEN_STATUS[s], golden_count(results, s));

@@ -3,9 +3,12 @@
 #define MONGE_CLI_GOLDEN_RESULTS_H
 
 #include "cli/golden.h"
+#include "cli/golden_places.h"
 
 struct golden_results {
-    char *folder; /* owned: of the goldens */
+    char *folder;                /* owned: of the goldens */
+    struct golden_places places; /* of a run that looks for orphans */
+    size_t elsewhere;            /* goldens of scenes that are in these places, and not in the run */
     struct golden_case *cases;
     size_t count;
     double seconds;

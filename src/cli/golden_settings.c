@@ -9,6 +9,7 @@
 #include "cli/asked.h"
 #include "cli/golden_folder.h"
 #include "cli/say.h"
+#include "cli/scene_path.h"
 
 /* ---- Options ---- */
 
@@ -81,8 +82,14 @@ static bool read_file(struct golden_settings *settings, const struct loader *loa
     return settings->file;
 }
 
-static bool find_root(struct golden_settings *settings, const char *folder) {
+static bool find_root(struct golden_settings *settings, const char *folder,
+                      const struct option_value *given) {
     const char *root = settings->file ? settings->file->root : NULL;
+    if (given && given->given) {
+        settings->root = realpath(given->text, NULL);
+        if (!settings->root) say_error("--root %s: %s", given->text, strerror(errno));
+        return settings->root;
+    }
     if (!root) return true;
     char *path = *root == '/' ? say_text("%s", root) : golden_path(folder, root, "");
     settings->root = realpath(path, NULL);
@@ -92,9 +99,10 @@ static bool find_root(struct golden_settings *settings, const char *folder) {
 }
 
 bool golden_settings_read(struct golden_settings *settings, const char *folder,
-                          const enum monge_golden_kind *kind, const struct loader *loader) {
+                          const enum monge_golden_kind *kind, const struct option_value *root,
+                          const struct loader *loader) {
     *settings = (struct golden_settings){.path = golden_path(folder, "golden.yaml", "")};
-    if (!read_file(settings, loader) || !find_root(settings, folder)) return false;
+    if (!read_file(settings, loader) || !find_root(settings, folder, root)) return false;
     const struct monge_goldens *file = settings->file;
     settings->other = (struct monge_golden_rule){.options = "", .kind = file ? file->kind : MONGE_GOLDEN_PNG};
     settings->count = (file ? file->count : 0) + 1;
@@ -138,12 +146,6 @@ struct golden_rule *golden_settings_find(const struct golden_settings *settings,
 }
 
 char *golden_settings_name(const struct golden_settings *settings, const struct scene_file *scene) {
-    char *real = settings->root ? realpath(scene->path, NULL) : NULL;
-    const size_t root = settings->root ? strlen(settings->root) : 0;
-    const bool below = real && strncmp(real, settings->root, root) == 0 && real[root] == '/';
-    const char *name = below ? real + root + 1 : scene->name, *dot = strrchr(name, '.');
-    const bool cut = below && dot && (strcmp(dot, ".yaml") == 0 || strcmp(dot, ".yml") == 0);
-    char *found = say_text("%.*s", (int)(cut ? (size_t)(dot - name) : strlen(name)), name);
-    free(real);
-    return found;
+    if (!settings->root) return say_text("%s", scene->name);
+    return scene_name_below(settings->root, scene->path, scene->name);
 }

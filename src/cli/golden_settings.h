@@ -21,10 +21,11 @@ struct golden_settings {
     size_t count;
 };
 
-/* Reads FOLDER/golden.yaml, where it is there. kind: of all goldens, whatever it says; NULL: as it says. False, with the
- * reason told. Either way to be freed. */
+/* Reads FOLDER/golden.yaml, where it is there. kind: of all goldens, whatever it says; NULL: as it says. root: the option,
+ * which goes before its `root` if it is given; may be NULL. False, with the reason told. Either way to be freed. */
 bool golden_settings_read(struct golden_settings *settings, const char *folder,
-                          const enum monge_golden_kind *kind, const struct loader *loader);
+                          const enum monge_golden_kind *kind, const struct option_value *root,
+                          const struct loader *loader);
 void golden_settings_free(struct golden_settings *settings);
 
 /* The next word of options at *at, as a shell would have it, in place: blanks part words but in quotes, and \ takes what
@@ -34,7 +35,7 @@ char *golden_next_word(char **at, bool *open);
 /* The rule for a scene, by its name. */
 struct golden_rule *golden_settings_find(const struct golden_settings *settings, const char *name);
 
-/* The name of a scene: from the root, where it lies below it, else the one that it has. To be freed. */
+/* The name of a scene: from the root, where there is one; NULL: it is not below that. To be freed. */
 char *golden_settings_name(const struct golden_settings *settings, const struct scene_file *scene);
 
 #endif

@@ -148,6 +148,10 @@ static int compare_claims(const void *a, const void *b) {
     return order ? order : (int)q->writes - (int)p->writes;
 }
 
+static bool is_namesake(const char *a, const char *b) {
+    return strcmp(a, b) != 0 && strcmp(a + folder_length(a), b + folder_length(b)) == 0;
+}
+
 static void report_collision(const struct plan *plan, const struct claim *a, const struct claim *b) {
     const bool sweep = plan->wanted && plan->sweep->total > 1;
     char *pattern = sweep ? better_pattern(plan) : NULL;
@@ -157,7 +161,8 @@ static void report_collision(const struct plan *plan, const struct claim *a, con
         say_usage(COMMAND_RENDER, "%s and %s would both write %s; write -o '%s'", a->user, b->user, a->place,
                   pattern);
     else
-        say_usage(COMMAND_RENDER, "%s and %s would both write %s", a->user, b->user, a->place);
+        say_usage(COMMAND_RENDER, "%s and %s would both write %s%s", a->user, b->user, a->place,
+                  is_namesake(a->user, b->user) ? "; with --root DIR they keep their folders" : "");
     free(pattern);
 }
 

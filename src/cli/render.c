@@ -145,10 +145,10 @@ static enum status render_load(struct unit *unit, struct load *load, double begu
 /* ---- Units ---- */
 
 /* Without --frames, all that can be known before the scene is loaded: that its picture cannot be written, or need
- * not be. */
+ * not be. For a scene that is not there no folder is made. */
 static bool is_settled(struct unit *unit, enum status *status) {
-    const char *path = unit->output->path;
-    if (unit->work->plan.frames) return false;
+    const char *path = unit->output->path, *scene = unit->output->scene;
+    if (unit->work->plan.frames || (strcmp(scene, "-") != 0 && access(scene, F_OK) != 0)) return false;
     if (work_wants(unit->work, OPTION_DRY_RUN)) {
         add_picture(unit, path, 0);
         *status = end_picture(unit, foresee(unit, 0));

@@ -1,14 +1,14 @@
 #include "cli/scenes.h"
 
-#include <dirent.h>
 #include <errno.h>
-#include <fnmatch.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "cli/matches.h"
 #include "cli/say.h"
+#include "cli/scene_path.h"
 
 /* What is under way. */
 struct search {
@@ -17,11 +17,11 @@ struct search {
     const struct monge_limits *limits;
     struct report *report;
     enum scenes_wish wish;
-    size_t left_out; /* files below folders that are not wanted */
+    char *
+        left_out; /* files below folders that are not wanted, and are to be told: "a.yaml, b.yaml"; NULL: none */
+    size_t left_out_count; /* of more than a few the others are in this number alone */
     bool input_read;
 };
-
-static void add_operand(struct search *search, const char *operand);
 
 /* ---- Paths ---- */
 
@@ -33,19 +33,15 @@ static bool is_folder(const char *path) {
     return stat(path, &status) == 0 && S_ISDIR(status.st_mode);
 }
 
+static bool is_file(const char *path) {
+    struct stat status;
+    return stat(path, &status) == 0 && S_ISREG(status.st_mode);
+}
+
 static bool is_link(const char *path) {
     struct stat status;
     return lstat(path, &status) == 0 && S_ISLNK(status.st_mode);
 }
-
-/* Where .yaml or .yml begins at the end of the path; NULL: it ends otherwise. */
-static const char *extension(const char *path) {
-    const char *slash = strrchr(path, '/'), *base = slash ? slash + 1 : path, *dot = strrchr(base, '.');
-    const bool yaml = dot && dot > base && (strcmp(dot, ".yaml") == 0 || strcmp(dot, ".yml") == 0);
-    return yaml ? dot : NULL;
-}
-
-static bool is_pattern(const char *path) { return strpbrk(path, "*?[") != NULL; }
 
 /* ---- What is wrong ---- */
 
@@ -64,55 +60,40 @@ static void *no_memory(void) {
 /* The name is the path from `name` on, without its extension. */
 static void add_scene(struct search *search, const char *path, const char *name) {
     struct scenes *scenes = search->scenes;
-    const char *end = extension(name);
     scenes->all = realloc(scenes->all, (scenes->count + 1) * sizeof *scenes->all);
     if (!scenes->all) no_memory();
-    scenes->all[scenes->count++] = (struct scene_file){
-        say_text("%s", path), say_text("%.*s", (int)(end ? (size_t)(end - name) : strlen(name)), name)};
-}
-
-static void add_file(struct search *search, const char *path) {
-    const char *slash = strrchr(path, '/');
-    add_scene(search, path, slash && slash[1] ? slash + 1 : path);
+    scenes->all[scenes->count++] = (struct scene_file){say_text("%s", path), scene_name(name)};
 }
 
 /* ---- Folders ---- */
 
-/* The names of what is in a folder ("": the current one), but for the hidden, sorted, up to a NULL. To be freed with
- * its texts. NULL: errno says why. */
-static char **folder_names(const char *folder) {
-    DIR *stream = opendir(*folder ? folder : ".");
-    char **names = stream ? calloc(1, sizeof *names) : NULL;
-    size_t count = 0;
-    for (struct dirent *file; names && (file = readdir(stream));) {
-        if (file->d_name[0] == '.') continue;
-        names = realloc(names, (count + 2) * sizeof *names);
-        if (!names) no_memory();
-        names[count++] = say_text("%s", file->d_name);
-        names[count] = NULL;
-    }
-    const int reason = errno;
-    if (stream) closedir(stream);
-    errno = reason;
-    return names;
+static bool is_settings(const char *path) {
+    const char *slash = strrchr(path, '/');
+    return strcmp(slash ? slash + 1 : path, "golden.yaml") == 0;
 }
 
-static void free_names(char **names) {
-    for (char **name = names; name && *name; name++) free(*name);
-    free(names);
+enum { FEW = 10 }; /* names that are worth a line, but for `monge check`, which has all */
+
+/* What is no scene as its author meant it, definitions and settings of goldens, is told by `monge check` alone. */
+static void leave_out(struct search *search, const char *path, enum monge_text_kind kind) {
+    const bool all = search->args->command == COMMAND_CHECK;
+    if ((kind == MONGE_TEXT_DEFINITIONS || is_settings(path)) && !all) return;
+    if (++search->left_out_count > FEW && !all) return;
+    char *before = search->left_out;
+    search->left_out = before ? say_text("%s, %s", before, path) : say_text("%s", path);
+    free(before);
 }
 
-/* A file that cannot be read is wanted: so that its reading is what tells. */
-static bool is_wanted(const struct search *search, const char *path) {
-    struct monge_diagnostics *diag = monge_diagnostics_new();
-    struct monge_text text = {NULL, 0};
-    enum monge_text_kind kind = MONGE_TEXT_SCENE;
-    if (diag && monge_text_read(path, search->limits, &text, diag))
-        kind = monge_text_kind(&text, search->limits);
-    monge_text_free(&text);
-    monge_diagnostics_free(diag);
-    return kind == MONGE_TEXT_SCENE ||
-           (kind == MONGE_TEXT_DEFINITIONS && search->wish == SCENES_AND_DEFINITIONS);
+static bool is_quiet(const struct search *search) {
+    return search->args->option[OPTION_QUIET].given || search->report->format != MONGE_FORMAT_TEXT;
+}
+
+static void mention_left_out(const struct search *search) {
+    const size_t count = search->left_out_count;
+    const bool more = count > FEW && search->args->command != COMMAND_CHECK;
+    if (count == 0 || is_quiet(search)) return;
+    say_note("%zu file%s without a `scene` %s left out: %s%s", count, count == 1 ? "" : "s",
+             count == 1 ? "is" : "are", search->left_out, more ? ", ..." : "");
 }
 
 static void walk(struct search *search, const char *folder, size_t below);
@@ -121,23 +102,26 @@ static void walk(struct search *search, const char *folder, size_t below);
 static void walk_entry(struct search *search, const char *path, size_t below) {
     if (is_folder(path)) {
         if (!is_link(path)) walk(search, path, below);
-    } else if (extension(path)) {
-        if (is_wanted(search, path))
-            add_scene(search, path, path + below);
-        else
-            search->left_out++;
+        return;
     }
+    if (!scene_extension(path)) return;
+    const enum monge_text_kind kind = scene_kind(path, search->limits);
+    const bool definitions = kind == MONGE_TEXT_DEFINITIONS && search->wish == SCENES_AND_DEFINITIONS;
+    if (kind == MONGE_TEXT_SCENE || definitions)
+        add_scene(search, path, path + below);
+    else
+        leave_out(search, path, kind);
 }
 
 static void walk(struct search *search, const char *folder, size_t below) {
     char **names = folder_names(folder);
     if (!names) report_trouble(search, folder, strerror(errno));
     for (char **name = names; name && *name; name++) {
-        char *path = say_text("%s/%s", folder, *name);
+        char *path = say_text("%s%s%s", folder, strcmp(folder, "/") == 0 ? "" : "/", *name);
         walk_entry(search, path, below);
         free(path);
     }
-    free_names(names);
+    folder_names_free(names);
 }
 
 static int compare_scenes(const void *a, const void *b) {
@@ -146,14 +130,16 @@ static int compare_scenes(const void *a, const void *b) {
     return order ? order : strcmp(p->path, q->path);
 }
 
-static void add_folder(struct search *search, const char *path) {
+/* `below`: where in the path the names of its scenes begin; at its end, or beyond: behind it. */
+static void add_folder(struct search *search, const char *path, size_t below) {
     size_t length = strlen(path);
     while (length > 1 && path[length - 1] == '/') length--;
     const size_t first = search->scenes->count;
     const enum status before = search->scenes->status;
+    const size_t behind = length + (path[length - 1] != '/');
     char *folder = say_text("%.*s", (int)length, path);
     search->scenes->status = STATUS_YES;
-    walk(search, folder, strlen(folder) + 1);
+    walk(search, folder, below < length ? below : behind);
     const size_t found = search->scenes->count - first;
     if (found > 0)
         qsort(search->scenes->all + first, found, sizeof *search->scenes->all, compare_scenes);
@@ -163,116 +149,62 @@ static void add_folder(struct search *search, const char *path) {
     free(folder);
 }
 
-/* ---- Patterns ---- */
-
-/* Paths that a pattern stands for. */
-struct matches {
-    char **paths;
-    size_t count;
-};
-
-static void add_match(struct matches *matches, const char *path) {
-    matches->paths = realloc(matches->paths, (matches->count + 1) * sizeof *matches->paths);
-    if (!matches->paths) no_memory();
-    matches->paths[matches->count++] = say_text("%s", path);
-}
-
-static void match(struct matches *matches, const char *folder, const char *pattern);
-
-/* `path` is what the pattern stands for up to its `rest`. */
-static void match_rest(struct matches *matches, const char *path, const char *rest) {
-    if (!*rest) {
-        if (is_there(path)) add_match(matches, path);
-    } else if (is_folder(path)) {
-        char *folder = say_text("%s/", path);
-        match(matches, folder, rest + strspn(rest, "/"));
-        free(folder);
-    }
-}
-
-/* `**` and what follows it, in this folder and in all below. */
-static void match_below(struct matches *matches, const char *folder, const char *pattern) {
-    char **names = folder_names(folder);
-    const char *rest = pattern + 2;
-    if (*rest)
-        match(matches, folder, rest + strspn(rest, "/"));
-    else
-        add_match(matches, *folder ? folder : ".");
-    for (char **name = names; *rest && name && *name; name++) {
-        char *path = say_text("%s%s", folder, *name), *inner = say_text("%s/", path);
-        if (is_folder(path) && !is_link(path)) match_below(matches, inner, pattern);
-        free(path);
-        free(inner);
-    }
-    free_names(names);
-}
-
-/* `folder` ends in a slash, or is empty: the current one. */
-static void match(struct matches *matches, const char *folder, const char *pattern) {
-    const size_t length = strcspn(pattern, "/");
-    const char *rest = pattern + length;
-    if (length == 2 && strncmp(pattern, "**", 2) == 0) {
-        match_below(matches, folder, pattern);
-        return;
-    }
-    char *part = say_text("%.*s", (int)length, pattern);
-    char *plain[] = {part, NULL}, **names = is_pattern(part) ? folder_names(folder) : plain;
-    for (char **name = names; name && *name; name++) {
-        if (names != plain && fnmatch(part, *name, FNM_PERIOD) != 0) continue;
-        char *path = say_text("%s%s", folder, *name);
-        match_rest(matches, path, rest);
-        free(path);
-    }
-    if (names != plain) free_names(names);
-    free(part);
-}
-
-static int compare_paths(const void *a, const void *b) {
-    return strcmp(*(char *const *)a, *(char *const *)b);
-}
-
-static void add_pattern(struct search *search, const char *pattern) {
-    struct matches matches = {NULL, 0};
-    const size_t root = strspn(pattern, "/");
-    match(&matches, root ? "/" : "", pattern + root);
-    if (matches.count == 0) report_trouble(search, pattern, "no file matches");
-    if (matches.count > 0) qsort(matches.paths, matches.count, sizeof *matches.paths, compare_paths);
-    for (size_t i = 0; i < matches.count; i++)
-        if (i == 0 || strcmp(matches.paths[i - 1], matches.paths[i]) != 0)
-            is_folder(matches.paths[i]) ? add_folder(search, matches.paths[i])
-                                        : add_file(search, matches.paths[i]);
-    for (size_t i = 0; i < matches.count; i++) free(matches.paths[i]);
-    free(matches.paths);
-}
-
 /* ---- Lists ---- */
 
-/* The next line that says something, made a text of its own; NULL: there is none. */
-static char *next_line(char **at) {
-    while (**at) {
-        char *line = *at;
-        const size_t length = strcspn(line, "\n");
-        *at = line + length + (line[length] == '\n');
-        line[length] = '\0';
-        for (size_t i = strlen(line); i > 0 && strchr(" \t\r", line[i - 1]); i--) line[i - 1] = '\0';
-        if (*line && *line != '#') return line;
+/* A text as a list, of lines; where it has a NUL, of what is between those. */
+struct list {
+    char *copy, *at, *end; /* copy: owned */
+    char separator;
+};
+
+static struct list list_begin(const struct monge_text *text) {
+    static const char mark[] = "\xEF\xBB\xBF"; /* of UTF-8, by some editors */
+    struct list list = {.copy = malloc(text->size + 1)};
+    if (!list.copy) no_memory();
+    memcpy(list.copy, text->bytes, text->size + 1);
+    list.separator = memchr(list.copy, '\0', text->size) ? '\0' : '\n';
+    list.at = list.copy + (list.separator && strncmp(list.copy, mark, 3) == 0 ? 3 : 0);
+    list.end = list.copy + text->size;
+    return list;
+}
+
+static char *trimmed(char *line) {
+    line += strspn(line, " \t\r");
+    for (size_t i = strlen(line); i > 0 && strchr(" \t\r", line[i - 1]); i--) line[i - 1] = '\0';
+    return *line == '#' ? line + strlen(line) : line;
+}
+
+/* The next entry that says something; NULL: there is none. What is between NULs is a name as it stands. */
+static char *list_next(struct list *list) {
+    while (list->at < list->end) {
+        char *entry = list->at, *stop = memchr(entry, list->separator, (size_t)(list->end - entry));
+        list->at = stop ? stop + 1 : list->end;
+        if (stop) *stop = '\0';
+        if (list->separator) entry = trimmed(entry);
+        if (*entry) return entry;
     }
     return NULL;
 }
 
-static void add_lines(struct search *search, const struct monge_text *text, const char *name) {
+static void add_name(struct search *search, const char *name);
+
+/* `path` as the command line has it. */
+static void add_entries(struct search *search, const struct monge_text *text, const char *path) {
     const size_t before = search->scenes->count;
     const enum status status = search->scenes->status;
-    char *copy = say_text("%s", text->bytes), *at = copy;
-    for (char *line; (line = next_line(&at));) {
-        if (*line == '@' || is_stream(line))
-            report_trouble(search, name, "a list cannot have a list in it");
+    const char *called = is_stream(path) ? "standard input" : path;
+    struct list list = list_begin(text);
+    for (char *entry; (entry = list_next(&list));)
+        if (list.separator && (*entry == '@' || is_stream(entry)))
+            report_trouble(search, called, "a list cannot have a list in it");
         else
-            add_operand(search, line);
-    }
-    if (search->scenes->count == before && search->scenes->status == status)
-        report_trouble(search, name, "the list is empty");
-    free(copy);
+            add_name(search, entry);
+    free(list.copy);
+    if (search->scenes->count > before || search->scenes->status > status) return;
+    if (!is_stream(path))
+        report_trouble(search, called, "the list is empty");
+    else if (!is_quiet(search))
+        say_note("the list is empty: nothing to %s", COMMAND_TABLE[search->args->command].name);
 }
 
 static bool read_text(struct search *search, const char *path, struct monge_text *text) {
@@ -291,17 +223,18 @@ static bool read_text(struct search *search, const char *path, struct monge_text
 
 static void add_list(struct search *search, const char *path) {
     struct monge_text text = {NULL, 0};
-    if (read_text(search, path, &text)) add_lines(search, &text, is_stream(path) ? "standard input" : path);
+    if (read_text(search, path, &text)) add_entries(search, &text, path);
     monge_text_free(&text);
 }
 
-/* Whether each line is a path: no scene is so, whose `scene:` is neither there nor called .yaml. */
+/* Whether each entry is a path: no scene is so, whose `scene:` is neither there nor called .yaml. */
 static bool is_list(const struct monge_text *text) {
-    char *copy = say_text("%s", text->bytes), *at = copy;
+    struct list list = list_begin(text);
     size_t count = 0;
-    bool paths = strlen(copy) == text->size;
-    for (char *line; paths && (line = next_line(&at)); count++) paths = is_there(line) || extension(line);
-    free(copy);
+    bool paths = true;
+    for (char *entry; paths && (entry = list_next(&list)); count++)
+        paths = is_there(entry) || scene_extension(entry);
+    free(list.copy);
     return paths && count > 0;
 }
 
@@ -309,7 +242,7 @@ static void add_input(struct search *search) {
     struct monge_text text = {NULL, 0};
     if (!read_text(search, "-", &text)) return;
     if (is_list(&text)) {
-        add_lines(search, &text, "standard input");
+        add_entries(search, &text, "-");
         monge_text_free(&text);
     } else {
         search->scenes->input = text;
@@ -317,19 +250,129 @@ static void add_input(struct search *search) {
     }
 }
 
+/* Whether the @ before a list was forgotten. */
+static bool is_list_file(const struct search *search, const char *path) {
+    if (scene_extension(path) || !is_file(path)) return false;
+    struct monge_diagnostics *diag = monge_diagnostics_new();
+    struct monge_text text = {NULL, 0};
+    const bool list = diag && monge_text_read(path, search->limits, &text, diag) && is_list(&text);
+    monge_text_free(&text);
+    monge_diagnostics_free(diag);
+    return list;
+}
+
 /* ---- Operands ---- */
+
+static void add_file(struct search *search, const char *path) {
+    const char *slash = strrchr(path, '/');
+    if (!is_list_file(search, path)) {
+        add_scene(search, path, slash && slash[1] ? slash + 1 : path);
+        return;
+    }
+    say_error("%s: a list of scenes is given as @%s", path, path);
+    search->scenes->status = STATUS_TROUBLE;
+}
+
+static void add_pattern(struct search *search, const char *pattern) {
+    struct matches matches = matches_find(pattern);
+    if (matches.count == 0) report_trouble(search, pattern, "no file matches");
+    for (size_t i = 0; i < matches.count; i++) {
+        const char *path = matches.paths[i], *name = matches_varying(pattern, path);
+        is_folder(path) ? add_folder(search, path, (size_t)(name - path)) : add_scene(search, path, name);
+    }
+    matches_free(&matches);
+}
+
+static void add_name(struct search *search, const char *name) {
+    if (is_folder(name))
+        add_folder(search, name, strlen(name));
+    else if (is_pattern(name) && !is_there(name))
+        add_pattern(search, name);
+    else
+        add_file(search, name);
+}
 
 static void add_operand(struct search *search, const char *operand) {
     if (is_stream(operand))
         add_input(search);
     else if (*operand == '@')
         add_list(search, operand + 1);
-    else if (is_folder(operand))
-        add_folder(search, operand);
-    else if (is_pattern(operand) && !is_there(operand))
-        add_pattern(search, operand);
     else
-        add_file(search, operand);
+        add_name(search, operand);
+}
+
+/* ---- All of them ---- */
+
+/* Leaves out those scenes whose name has gone. */
+static void close_ranks(struct scenes *scenes) {
+    size_t kept = 0;
+    for (size_t i = 0; i < scenes->count; i++)
+        if (scenes->all[i].name)
+            scenes->all[kept++] = scenes->all[i];
+        else
+            free(scenes->all[i].path);
+    scenes->count = kept;
+}
+
+static void forget_name(struct scene_file *scene) {
+    free(scene->name);
+    scene->name = NULL;
+}
+
+static void name_from(struct search *search, const char *root, struct scene_file *scene) {
+    char *name = scene_name_below(root, scene->path, scene->name);
+    if (!name) report_trouble(search, scene->path, "it is not below the folder of --root");
+    free(scene->name);
+    scene->name = name;
+}
+
+static void name_from_root(struct search *search) {
+    const struct option_value *option = &search->args->option[OPTION_ROOT];
+    if (!option->given) return;
+    char *root = realpath(option->text, NULL);
+    if (!root) {
+        say_error("--root %s: %s", option->text, strerror(errno));
+        search->scenes->status = STATUS_TROUBLE;
+    }
+    for (size_t i = 0; i < search->scenes->count; i++) {
+        struct scene_file *scene = &search->scenes->all[i];
+        if (!root)
+            forget_name(scene);
+        else if (!is_stream(scene->path))
+            name_from(search, root, scene);
+    }
+    close_ranks(search->scenes);
+    free(root);
+}
+
+/* By name; those of one name in their order. */
+static int compare_places(const void *a, const void *b) {
+    const struct scene_file *p = *(struct scene_file *const *)a, *q = *(struct scene_file *const *)b;
+    const int order = strcmp(p->name, q->name);
+    return order ? order : p < q ? -1 : p > q;
+}
+
+static bool is_same(const struct scene_file *a, const struct scene_file *b) {
+    char *p = scene_place(a->path), *q = scene_place(b->path);
+    const bool same = strcmp(a->path, b->path) == 0 || (p && q && strcmp(p, q) == 0);
+    free(p);
+    free(q);
+    return same;
+}
+
+/* A file that is named twice counts once, if it would have the same name. */
+static void drop_repeated(struct scenes *scenes) {
+    struct scene_file **sorted = calloc(scenes->count + 1, sizeof *sorted);
+    if (!sorted) no_memory();
+    for (size_t i = 0; i < scenes->count; i++) sorted[i] = &scenes->all[i];
+    if (scenes->count > 1) qsort(sorted, scenes->count, sizeof *sorted, compare_places);
+    for (size_t i = 1, first = 0; i < scenes->count; i++)
+        if (strcmp(sorted[first]->name, sorted[i]->name) != 0)
+            first = i;
+        else if (is_same(sorted[first], sorted[i]))
+            forget_name(sorted[i]);
+    free(sorted);
+    close_ranks(scenes);
 }
 
 void scenes_find(struct scenes *scenes, const struct arguments *args, enum scenes_wish wish,
@@ -337,9 +380,10 @@ void scenes_find(struct scenes *scenes, const struct arguments *args, enum scene
     *scenes = (struct scenes){.status = STATUS_YES};
     struct search search = {.scenes = scenes, .args = args, .limits = limits, .report = report, .wish = wish};
     for (size_t i = 0; i < args->count; i++) add_operand(&search, args->operands[i]);
-    if (search.left_out > 0 && !args->option[OPTION_QUIET].given && report->format == MONGE_FORMAT_TEXT)
-        say_note("%zu file%s without a `scene` %s left out", search.left_out, search.left_out == 1 ? "" : "s",
-                 search.left_out == 1 ? "is" : "are");
+    name_from_root(&search);
+    drop_repeated(scenes);
+    mention_left_out(&search);
+    free(search.left_out);
 }
 
 void scenes_free(struct scenes *scenes) {

@@ -5,9 +5,12 @@
  *                     links to folders, are passed by
  *     'k[1-3]*.yaml'  a pattern that the shell has left alone; `**` in it, as the name of a folder, stands for any
  *                     folders, or none
- *     @list, @-       a file, or standard input, with one of these a line; # begins a comment
- *     -               standard input: a list where each line is a path, else a scene
- */
+ *     @list, @-       a file, or standard input, with one of these a line; # begins a comment. Where it has a NUL,
+ *                     what is between NULs is a name as it stands
+ *     -               standard input: a list where each entry is a path, else a scene
+ *
+ * A scene is called by its file name without .yaml or .yml; with the folders between, as "gallery/chess", from a folder
+ * that was asked for, from the fixed beginning of a pattern, and from the folder of --root, which goes before these. */
 #ifndef MONGE_CLI_SCENES_H
 #define MONGE_CLI_SCENES_H
 
@@ -17,13 +20,12 @@
 
 struct scene_file {
     char *path; /* owned; "-": the scene on standard input */
-    char *
-        name; /* owned: the file name without .yaml or .yml; of what is below a folder that was asked for, with
-                   the folders between, as "gallery/chess"; "stdin" */
+    char *name; /* owned; of the scene on standard input "stdin" */
 };
 
 struct scenes {
-    struct scene_file *all; /* in the order of the operands */
+    struct scene_file
+        *all; /* in the order of the operands; a file that would have the same name twice, once */
     size_t count;
     struct monge_text input; /* the scene on standard input; without bytes where there is none */
     enum status status;      /* STATUS_TROUBLE: some operand stands for nothing; the reason has been told */

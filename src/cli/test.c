@@ -45,7 +45,7 @@ static char *root_from_here(const char *root) {
 static bool find_scenes(struct test *test) {
     struct golden_run *run = &test->run;
     if (test->args.count == 0 && !run->settings.root) {
-        say_usage(COMMAND_TEST, "test: no scene given; `root` in %s would tell where they are",
+        say_usage(COMMAND_TEST, "test: no scene given; --root, or `root` in %s, would tell where they are",
                   run->settings.path);
         return false;
     }
@@ -89,9 +89,8 @@ static bool check_scenes(struct golden_run *run) {
         if (strcmp(sorted[i - 1]->name, sorted[i]->name) != 0) continue;
         good = is_same_file(sorted[i - 1]->path, sorted[i]->path);
         if (!good)
-            say_error(
-                "%s and %s would have the same golden, %s: name their folder, or give golden.yaml a `root`",
-                sorted[i - 1]->path, sorted[i]->path, sorted[i]->name);
+            say_error("%s and %s would have the same golden, %s: give --root, or golden.yaml a `root`",
+                      sorted[i - 1]->path, sorted[i]->path, sorted[i]->name);
         sorted[i]->path = sorted[i - 1]->path;
         sorted[i - 1]->path = NULL;
     }
@@ -112,23 +111,34 @@ static bool name_scenes(struct golden_run *run) {
     run->scenes = calloc(found->count + 1, sizeof *run->scenes);
     if (!run->scenes) say_error("out of memory");
     for (size_t i = 0; run->scenes && i < found->count; i++) {
-        struct golden_scene *scene = &run->scenes[run->count++];
-        scene->path = found->all[i].path;
-        scene->name = golden_settings_name(&run->settings, &found->all[i]);
-        scene->rule = golden_settings_find(&run->settings, scene->name);
+        char *name = golden_settings_name(&run->settings, &found->all[i]);
+        if (name) {
+            run->scenes[run->count++] = (struct golden_scene){
+                .path = found->all[i].path, .name = name, .rule = golden_settings_find(&run->settings, name)};
+            continue;
+        }
+        say_error("%s: it is not below `root`, %s", found->all[i].path, run->settings.root);
+        run->loader.scenes.status = STATUS_TROUBLE;
     }
     return run->scenes && check_scenes(run);
 }
 
-/* Whether the operands tell all scenes, so that what none of them has is an orphan: none is a single file. */
-static bool names_all(const struct arguments *args) {
-    for (size_t i = 0; i < args->count; i++) {
+/* Whether the operands may tell all scenes: each is a folder, and was read. */
+static bool names_all(const struct test *test) {
+    for (size_t i = 0; i < test->args.count; i++) {
         struct stat status;
-        const char *operand = args->operands[i];
-        const bool there = stat(operand, &status) == 0, list = *operand == '@' || strcmp(operand, "-") == 0;
-        if (there ? !S_ISDIR(status.st_mode) : !list && !strpbrk(operand, "*?[")) return false;
+        if (stat(test->args.operands[i], &status) != 0 || !S_ISDIR(status.st_mode)) return false;
     }
-    return true;
+    return test->run.loader.scenes.status == STATUS_YES;
+}
+
+/* Where a golden's scene must be gone from, so that it is an orphan. */
+static void find_places(struct test *test) {
+    struct golden_places *places = &test->results.places;
+    const char *root = test->run.settings.root;
+    if (!names_all(test)) return;
+    if (root) places->root = root_from_here(root);
+    for (size_t i = 0; i < test->args.count && !root; i++) golden_places_add(places, test->args.operands[i]);
 }
 
 static void warn_of_tolerances(const struct golden_run *run) {
@@ -310,6 +320,13 @@ static void mention_pictures(const struct test *test) {
     free(first);
 }
 
+static void mention_elsewhere(const struct test *test) {
+    const size_t count = test->results.elsewhere;
+    if (count > 0)
+        say_line(test->teller.out, "%zu golden%s of scenes that are not in this run", count,
+                 count == 1 ? " is" : "s are");
+}
+
 static void hint(const struct test *test) {
     bool can = false, orphans = false;
     for (size_t i = 0; i < test->results.count; i++) {
@@ -334,7 +351,8 @@ static enum status run_test(struct test *test) {
     if (run->count > 0) batch_run(&batch);
     if (!gather(test)) return STATUS_TROUBLE;
     const size_t first_orphan = test->results.count;
-    golden_find_orphans(run, names_all(&test->args), &test->results);
+    find_places(test);
+    golden_find_orphans(run, &test->results);
     for (size_t i = first_orphan; i < test->results.count; i++)
         golden_tell(&test->teller, &test->results.cases[i]);
     test->results.seconds = clock_seconds() - test->begun;
@@ -346,6 +364,7 @@ static enum status run_test(struct test *test) {
     interrupt_settle();
     if (!test->teller.tap && !test->teller.quiet) {
         mention_pictures(test);
+        mention_elsewhere(test);
         hint(test);
     }
     return good ? judge(test) : STATUS_TROUBLE;
@@ -383,7 +402,7 @@ static bool begin(struct test *test, const struct arguments *args) {
     const enum monge_golden_kind kind = (enum monge_golden_kind)option[OPTION_GOLDEN_KIND].choice;
     if (!loader_begin(&run->loader, args) ||
         !golden_settings_read(&run->settings, run->folder, option[OPTION_GOLDEN_KIND].given ? &kind : NULL,
-                              &run->loader))
+                              &option[OPTION_ROOT], &run->loader))
         return false;
     warn_of_tolerances(run);
     return check_folders(run) && find_scenes(test) && name_scenes(run) &&
