@@ -209,9 +209,10 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                  "it. What fails does not keep the others from being rendered, unless --fail-fast is "
                  "given.",
                  "--skip-unchanged leaves a picture alone that is whole and says, in its text chunks, that "
-                 "this program made it of these files with these options; with --aov, none. --resume does so "
-                 "too, and for a "
-                 "picture that takes longer than a second keeps the tiles that are done in .NAME.png.partial "
+                 "this program made it of these files with these options; with --aov, its passes too. "
+                 "--resume does "
+                 "so as well, and for a picture that takes longer than a second keeps the tiles that are "
+                 "done in .NAME.png.partial "
                  "beside it: the same command, given again after the first run was stopped in whatever way, "
                  "goes on from there, to the same bytes. The file goes when the picture is complete; it "
                  "counts for nothing where the scene, the settings or the program are no longer the same. "

@@ -3,6 +3,8 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "cli/aov.h"
+
 static bool is_file(const char *path) {
     struct stat status;
     return stat(path, &status) == 0 && S_ISREG(status.st_mode);
@@ -30,13 +32,13 @@ static bool is_whole(struct monge_picture *picture, struct monge_diagnostics *di
     return monge_picture_hash(picture, diag, now) && strcmp(said(picture, "monge:pixels"), now) == 0;
 }
 
-bool unchanged_picture(const char *path, const char *scene, const char *options,
+bool unchanged_picture(const char *path, const char *scene, const char *options, unsigned passes,
                        const struct monge_limits *limits) {
     if (!is_file(path) || !is_file(scene)) return false;
     struct monge_diagnostics *diag = monge_diagnostics_new(); /* what is in it is not wrong, but new */
     struct monge_picture *picture = diag ? monge_picture_read(path, diag) : NULL;
-    const bool same =
-        picture && is_asked_for(picture, scene, options, limits, diag) && is_whole(picture, diag);
+    const bool same = picture && is_asked_for(picture, scene, options, limits, diag) &&
+                      is_whole(picture, diag) && aov_unchanged(picture, passes, path);
     monge_picture_free(picture);
     monge_diagnostics_free(diag);
     return same;

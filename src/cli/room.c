@@ -1,0 +1,33 @@
+#include "cli/room.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "cli/say.h"
+
+/* A file that no name leads to. Negative: errno says why. */
+static int open_nameless(const char *folder) {
+    const int fd = open(folder, O_WRONLY | O_TMPFILE | O_CLOEXEC, 0600);
+    if (fd >= 0 || (errno != EOPNOTSUPP && errno != EISDIR)) return fd;
+    char *path = say_text("%s/.room.XXXXXX.tmp", folder); /* here there are none */
+    const int named = mkostemps(path, 4, O_CLOEXEC);
+    const int reason = errno;
+    if (named >= 0) unlink(path);
+    free(path);
+    errno = reason;
+    return named;
+}
+
+bool room_for(const char *path, uint64_t bytes) {
+    const char *slash = strrchr(path, '/');
+    char *folder = slash ? say_text("%.*s", (int)(slash - path) + 1, path) : say_text(".");
+    const int fd = open_nameless(folder);
+    const int reason = fd < 0 ? errno : posix_fallocate(fd, 0, (off_t)bytes);
+    if (fd >= 0) close(fd);
+    free(folder);
+    errno = reason;
+    return reason != ENOSPC && reason != EDQUOT && reason != EROFS;
+}
