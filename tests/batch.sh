@@ -292,7 +292,7 @@ if have flock; then
     rm long.png; cp saved .long.png.partial; flock .long.png.partial sleep 0.3 & while flock -n .long.png.partial true; do sleep 0.01; done
     exits 0 render long.yaml "${long[@]}" --resume; wait; err_has 'resumed long.png'; same long.png whole.png; missing .long.png.partial
     rm long.png; : >.long.png.partial; last='render --resume beside another that ends'
-    flock -o .long.png.partial sh -c "'$monge' render long.yaml --samples 60000 --resume 2>err & echo \$! >pid; until grep -q 'another run' err; do sleep 0.05; done"
+    flock -o .long.png.partial sh -c "'$monge' render long.yaml --samples 60000 --resume 2>err & echo \$! >pid; until grep -q 'another run' err; do sleep 0.05; done; sleep 1.5"
     for _ in $(seq 600); do [ "$(stat -c %s .long.png.partial)" -gt 2000 ] && break; sleep 0.05; done
     kill -KILL "$(cat pid)"; ok "it has the checkpoint in the end" grep -qa '^monge checkpoint' .long.png.partial; rm -f .long.png.partial
 else left_out "a locked checkpoint: no flock"; fi

@@ -782,6 +782,8 @@ fi
 
 # ---- Signals ----
 
+exits 0 help; out_has 'which a shell shows as 130, 143 and'; exits 0 help --man; out_has 'which a shell shows as 130, 143 and 129'
+
 if have perl; then
     rm -f p.png
     for row in 'INT 2' 'TERM 15' 'HUP 1'; do

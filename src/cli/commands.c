@@ -166,6 +166,11 @@ const char *const STATUS_DOC[] = {
     [STATUS_TROUBLE] = "trouble: wrong usage, a file that cannot be read or written, no memory",
 };
 
+const char SIGNAL_DOC[] =
+    "SIGINT (Ctrl-C), SIGTERM and SIGHUP end render and test by the signal, which a shell shows as 130, 143 "
+    "and 129, "
+    "after a line that tells what is done; another one, half a second later, ends them at once.";
+
 const struct command_row COMMAND_TABLE[COMMANDS] = {
     [COMMAND_NONE] =
         {
@@ -216,7 +221,10 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                  "beside it: the same command, given again after the first run was stopped in whatever way, "
                  "goes on from there, to the same bytes. The file goes when the picture is complete; it "
                  "counts for nothing where the scene, the settings or the program are no longer the same. "
-                 "Of two runs for the same picture one keeps the tiles, and both make the picture.",
+                 "Of two runs for the same picture one keeps the tiles, and both make the picture. When a "
+                 "signal ends a "
+                 "batch, it tells what is done; --stats and --log have that, and nothing of what was cut "
+                 "short.",
                  "--progress json writes a line for each picture that is done and ten a second while one is "
                  "rendered: an object with done, total, rendered, unchanged, failed (pictures), part (0 to "
                  "1), "
@@ -308,6 +316,7 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                  "to take. Orphans are looked for where there is a root, or where all operands are folders, "
                  "patterns or "
                  "lists.",
+                 "A run that a signal ends writes what it has judged, for `monge accept` to take.",
                  "Exit status 1 where anything is not the same. grammar/testing.md is the page about it.",
                  LIMITS_TEXT},
             .examples = {{"monge test scenes/ --golden goldens/", "all scenes of a folder"},

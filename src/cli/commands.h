@@ -131,6 +131,7 @@ struct command_row {
 extern const struct command_row COMMAND_TABLE[COMMANDS];
 
 extern const char *const STATUS_DOC[STATUS_TROUBLE + 1];
+extern const char SIGNAL_DOC[]; /* and what there is besides: the statuses of signals */
 
 /* Whether the value is made of words that are known. */
 static inline bool option_has_words(const struct option_row *row) {

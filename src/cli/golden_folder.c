@@ -114,6 +114,28 @@ bool golden_remove(const char *folder, const char *path) {
     return true;
 }
 
+static bool remove_picture(const char *output, const char *path) {
+    bool good = golden_remove(output, path);
+    for (enum monge_layer layer = 0; layer < MONGE_LAYERS; layer++) {
+        char *beside = aov_path(layer, path);
+        good &= golden_remove(output, beside);
+        free(beside);
+    }
+    return good;
+}
+
+bool golden_clear(const char *output, const char *name) {
+    static const char *const folders[] = {"new", "old"};
+    bool good = true;
+    for (size_t i = 0; i < 2 && golden_name_is_safe(name); i++) {
+        char *folder = golden_path(output, folders[i], ""), *path = golden_path(folder, name, ".png");
+        good &= remove_picture(output, path);
+        free(path);
+        free(folder);
+    }
+    return good;
+}
+
 /* ---- What is there ---- */
 
 struct names {

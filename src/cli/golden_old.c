@@ -1,4 +1,6 @@
 /* --old: the picture of a golden that is a hash, by the program that made it. */
+#include <errno.h>
+#include <signal.h>
 #include <spawn.h>
 #include <stdlib.h>
 #include <string.h>
@@ -7,6 +9,7 @@
 
 #include "cli/golden_folder.h"
 #include "cli/golden_run.h"
+#include "cli/interrupt.h"
 #include "cli/say.h"
 
 /* Whether the command, a shell's, ends well. */
@@ -15,7 +18,11 @@ static bool run_command(char *command) {
     pid_t child;
     int status;
     if (posix_spawn(&child, "/bin/sh", NULL, NULL, words, environ) != 0) return false;
-    return waitpid(child, &status, 0) == child && WIFEXITED(status) && WEXITSTATUS(status) == 0;
+    while (waitpid(child, &status, 0) < 0) {
+        if (errno != EINTR) return false;
+        kill(child, SIGTERM);
+    }
+    return WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
 /* An old program may not know passes. */
@@ -28,7 +35,7 @@ static bool render(const char *program, const struct golden_case *c, const char 
     free(command);
     free(quoted_path);
     free(quoted_program);
-    return good || (passes && render(program, c, path, false));
+    return good || (passes && !interrupt_pending() && render(program, c, path, false));
 }
 
 /* Whether the picture is the one that the golden is the hash of. */

@@ -101,6 +101,7 @@ bool golden_results_read(struct golden_results *results, const char *path) {
     const struct monge_value *root = document ? monge_document_root(document) : NULL;
     if (diag) monge_diagnostics_print(diag, say_stream());
     results->folder = read_text(root, "golden");
+    results->interrupted = read_whole(monge_value_get(root, "interrupted"));
     const bool good = document && results->folder && read_cases(results, monge_value_get(root, "scenes"));
     if (document && !good) say_error("%s: no results of `monge test`", path);
     monge_document_free(document);

@@ -13,6 +13,7 @@ struct golden_scene {
     struct golden_rule *rule;
     struct golden_case *cases; /* owned */
     size_t count;
+    bool done; /* no signal has come before its last case was judged */
 };
 
 struct golden_run {
@@ -28,7 +29,8 @@ struct golden_run {
     size_t count;
 };
 
-/* Renders the pictures of a scene, and judges them: its cases. */
+/* Renders the pictures of a scene, and judges them: its cases. One that a signal has cut short is none, and leaves nothing
+ * behind. */
 void golden_scene_run(const struct golden_run *run, struct golden_scene *scene);
 
 /* What the golden of a case is, before its picture is rendered: c->old, c->golden_path, c->golden_file; and, where

@@ -100,5 +100,7 @@ void manual_print(FILE *out) {
         fprintf(out, ".TP\n%d\n", s);
         print_line(out, STATUS_DOC[s]);
     }
+    fputs(".PP\n", out);
+    print_line(out, SIGNAL_DOC);
     print_examples(out);
 }
