@@ -782,7 +782,7 @@ fi
 
 # ---- Signals ----
 
-exits 0 help; out_has 'which a shell shows as 130, 143 and'; exits 0 help --man; out_has 'which a shell shows as 130, 143 and 129'
+exits 0 help; out_has 'shell shows as 130, 143 and 129'; exits 0 help --man; out_has 'which a shell shows as 130, 143 and 129'
 
 if have perl; then
     rm -f p.png
