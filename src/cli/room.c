@@ -21,9 +21,17 @@ static int open_nameless(const char *folder) {
     return named;
 }
 
+/* Of the file that a link leads to, where there is one. To be freed. */
+static char *folder_of(const char *path) {
+    char *real = realpath(path, NULL);
+    const char *file = real ? real : path, *slash = strrchr(file, '/');
+    char *folder = slash ? say_text("%.*s", (int)(slash - file) + 1, file) : say_text(".");
+    free(real);
+    return folder;
+}
+
 bool room_for(const char *path, uint64_t bytes) {
-    const char *slash = strrchr(path, '/');
-    char *folder = slash ? say_text("%.*s", (int)(slash - path) + 1, path) : say_text(".");
+    char *folder = folder_of(path);
     const int fd = open_nameless(folder);
     const int reason = fd < 0 ? errno : posix_fallocate(fd, 0, (off_t)bytes);
     if (fd >= 0) close(fd);
