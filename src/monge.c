@@ -136,6 +136,12 @@ struct monge_film *monge_render(struct monge_scene *scene, const struct monge_se
     return NULL;
 }
 
+bool monge_film_note_passes(struct monge_film *film, const char *passes) {
+    free(film->passes);
+    film->passes = strdup(passes);
+    return film->passes != NULL;
+}
+
 bool monge_film_write_png(const struct monge_film *film, const char *path, struct monge_diagnostics *diag) {
     char message[1024];
     if (png_write_film(film, path, message, sizeof message)) return true;

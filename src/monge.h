@@ -371,6 +371,10 @@ bool monge_film_hash(const struct monge_film *film, char hash[MONGE_HASH_SIZE]);
 /* The hash of the scene, as it was evaluated, and of the settings: of all that can change a pixel. */
 void monge_film_scene_hash(const struct monge_film *film, char hash[MONGE_HASH_SIZE]);
 
+/* Notes the passes that are in files beside the film's picture, for its text chunk monge:passes: of each a line with its
+ * name and the hash of its file, as monge_files_hash has it. False: no memory. */
+bool monge_film_note_passes(struct monge_film *film, const char *passes);
+
 /* Writes the film as PNG, with the bits and the encoding of the settings it was rendered with, and
  * what it was made from in text chunks (README.md has them). path "-" is standard output. A regular file appears complete under
  * its name or not at all. False when it cannot: diag says why, as a failure. */

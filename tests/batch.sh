@@ -305,7 +305,7 @@ for option in --skip-unchanged --resume; do
     foresee one.yaml $option; foresees unchanged
     foresee one.yaml $option --samples 2; foresees 'would be rendered: its options differ'
     foresee one.yaml $option -D a=2; foresees 'would be rendered: its options differ'
-    foresee one.yaml $option --aov depth; foresees 'would be rendered: --aov is given'
+    foresee one.yaml $option --aov depth; foresees 'would be rendered: its passes are not all whole'
 done
 echo '# another comment' >>one.yaml; foresee one.yaml --skip-unchanged; foresees 'would be rendered: its text differs'
 skip; echo 'params: {r: 2.5}' >lib/defs.yaml; foresee one.yaml --skip-unchanged; foresees 'would be rendered: its text differs'
@@ -339,7 +339,18 @@ rm two-*.png
 foresee absent.yaml one.yaml; ok "a scene that is not there" [ $status -eq 2 ]; err_has 'cannot read absent.yaml: No such file'; err_has '1 would be rendered, 1 failed'
 foresee one.yaml -n -q; ok 'quiet' [ ! -s out ]; no_err
 exits 2 render one.yaml two.yaml -n -o same.png; err_has 'is one file for 2 scenes'
-exits 0 render "${small[@]}" one.yaml --skip-unchanged --aov depth; ok "passes are made again" grep -q ^wrote err; there one.depth.pfm
+passes() { run render "${small[@]}" one.yaml --skip-unchanged --aov "$1"; }
+made() { ok "$1: rendered" grep -q '^wrote one.png' err; passes depth,object; ok "$1: and then not" grep -qx 'unchanged one.png' err; }
+passes depth,object; made "passes"; cp one.png good.png; cp one.depth.pfm good.pfm
+passes depth; ok "fewer of them" grep -qx 'unchanged one.png' err; skip; ok "none of them" grep -qx 'unchanged one.png' err
+passes depth,normal; ok "another one" grep -q '^wrote one.png' err; passes depth,object; made "those of before"
+for pass in one.depth.pfm one.object.png; do
+    printf x | dd of=$pass bs=1 seek=90 conv=notrunc 2>/dev/null; passes depth,object; made "an edited $pass"
+    head -c -1 $pass >cut; mv cut $pass; passes depth,object; made "a torn $pass"
+    rm $pass; passes depth,object; made "without $pass"
+done
+same one.png good.png; same one.depth.pfm good.pfm
+run render "${small[@]}" one.yaml --aov depth,object --samples 2; passes depth,object; made "passes of other options"
 exits 0 render "${small[@]}" two.yaml --frames 1-2 --skip-unchanged; err_lacks unchanged
 exits 0 render "${small[@]}" two.yaml --frames all --skip-unchanged --log log --stats s.json
 err_has 'unchanged two-0002.png'; err_has 'wrote two-0003.png'; err_has '1 rendered, 2 unchanged'
@@ -378,10 +389,35 @@ done
 last='several, stopped'; for i in 1 2 3 4; do cp long.yaml stop-$i.yaml; done
 "$monge" render stop-*.yaml -j 3 -q "${long[@]}" -o stopped/ 2>err & pid=$!
 until [ -d stopped ]; do sleep 0.01; done; sleep 0.1; kill -TERM $pid; wait $pid; status=$?
-ok "the signal ends it" [ $status -eq 143 ]; ok "nothing is left" [ -z "$(ls -A stopped)" ]
+ok "the signal ends it" [ $status -eq 143 ]; ok "nothing is left" [ -z "$(ls -A stopped)" ]; no_err
+# stopped SIGNAL ARGS...: a picture, and then one that is cut short by the signal
+stopped() {
+    last="render ${*:2} (signal $1)"; rm -rf stopped cut.*
+    "$monge" render probe.yaml long.yaml stop-1.yaml -j 1 "${long[@]}" -o stopped/ --log cut.log --stats cut.json "${@:2}" 2>err & local pid=$!
+    until [ -s cut.log ]; do sleep 0.01; done; sleep 0.1; kill -$1 $pid; { wait $pid; } 2>/dev/null; status=$?
+}
+echo 'image: {size: [8, 6]}
+scene: [{sphere: {}}]' >probe.yaml
+for row in 'TERM 143' 'HUP 129'; do
+    stopped ${row% *}; ok "the status tells the signal" [ $status -eq ${row#* } ]
+    ok "what is done, and how to go on" [ "$(tail -n 1 err)" = 'interrupted: 1 of 3 rendered; the same command with --resume goes on' ]
+    ok "a line of the log for what is done" [ "$(grep -c '"status": "rendered"' cut.log)" -eq 1 -a "$(wc -l <cut.log)" -eq 1 ]
+    ok "statistics of what is done" [ "$(grep -c '"status": ' cut.json)" -eq 1 ]
+done
+stopped TERM --resume; ok "with --resume" [ "$(tail -n 1 err)" = 'interrupted: 1 of 3 rendered; the same command goes on' ]
+last='render (two signals at once)'; rm -rf stopped cut.log
+if have timeout; then # which sends each twice
+    timeout -s INT 1 "$monge" render long.yaml -j 1 "${long[@]}" --samples 60000 -o stopped/ --resume 2>err
+    ok "two signals at once are one" [ "$(cat err)" = 'interrupted: 0 of 1 rendered; the same command goes on' ]
+fi
+rm -rf stopped
 part() { run render long.yaml --samples 1 --shadow 0.9 --resume -o "${1:-long.png}"; }
 rm long.png; cp saved .long.png.partial; part; err_lacks resumed; missing .long.png.partial
 run render --samples 1 --shadow 0.9 -q long.yaml -o short.png; same long.png short.png
+cp saved .long.png.partial; run render long.yaml --samples 1 -q; missing .long.png.partial # no --resume
+run render probe.yaml -q; cp saved .probe.png.partial; run render probe.yaml --skip-unchanged; err_has unchanged; missing .probe.png.partial
+: >.probe.png.partial; run render probe.yaml -q; missing .probe.png.partial # of a run that was stopped when it had just made it
+echo mine >.probe.png.partial; run render probe.yaml -q; there .probe.png.partial; rm .probe.png.partial
 rm long.png; { head -c -1000 saved; head -c 5000 /dev/urandom; } >.long.png.partial
 exits 0 render long.yaml "${long[@]}" --resume; err_has resumed; same long.png whole.png
 rm long.png; cp saved .long.png.partial; printf XXXX | dd of=.long.png.partial bs=1 seek=9000 conv=notrunc 2>/dev/null
@@ -390,6 +426,12 @@ rm long.png; cp saved .long.png.partial
 if have flock; then
     flock .long.png.partial -c "'$monge' render long.yaml --samples 1 --size 64x48 --resume" 2>err; last='render --resume beside another'
     err_has 'is rendered by another run as well'; there long.png .long.png.partial; rm -f .long.png.partial
+    rm long.png; cp saved .long.png.partial; flock .long.png.partial sleep 0.3 & while flock -n .long.png.partial true; do sleep 0.01; done
+    exits 0 render long.yaml "${long[@]}" --resume; wait; err_has 'resumed long.png'; same long.png whole.png; missing .long.png.partial
+    rm long.png; : >.long.png.partial; last='render --resume beside another that ends' # which takes ten seconds
+    flock -o .long.png.partial sh -c "'$monge' render long.yaml --samples $((5 * ${long[1]})) --threads 1 --resume 2>err & echo \$! >pid; until grep -q 'another run' err; do sleep 0.05; done; sleep 1.5"
+    for _ in $(seq 600); do [ "$(stat -c %s .long.png.partial)" -gt 2000 ] && break; sleep 0.05; done
+    kill -KILL "$(cat pid)"; ok "it has the checkpoint in the end, from the first tile on" sh -c "head -c 400 .long.png.partial | od -An -tx1 | tr -d ' \n' | grep -qE '0(1020304|4030201)0a0a0{16}'"; rm -f .long.png.partial
 else left_out "a locked checkpoint: no flock"; fi
 ln -s nowhere .other.png.partial; part other.png; there other.png; rm .other.png.partial
 exits 0 render -q long.yaml --samples 1 --size 64x48 --resume -o -; ok "standard output" [ -s out ]
@@ -400,7 +442,8 @@ cd ..
 mkdir wrong && cd wrong || exit 1
 for i in 1 2 3 4 5; do echo 'scene: [{sphere: {}}]' >$i.yaml; mkdir $i; done
 rmdir 3; echo file >3
-exits 2 render ?.yaml -j 2 "${small[@]}" -o '{name}/x.png'; err_has 'cannot make the folder 3'; there 1/x.png 2/x.png 4/x.png 5/x.png; err_has '4 rendered, 1 failed'
+exits 2 render ?.yaml -j 2 "${small[@]}" -o '{name}/x.png'; err_has 'cannot make the folder 3: it is a file'; there 1/x.png 2/x.png 4/x.png 5/x.png; err_has '4 rendered, 1 failed'
+exits 2 render ?.yaml -j 2 "${small[@]}" -o 3/; ok "a folder that cannot be made is told once" [ "$(cat err)" = $'monge: cannot make the folder 3: it is a file\n0 rendered, 5 failed' ]
 rm -f ?/x.png
 apart= # a shell that may mount
 for how in -m -rm; do unshare $how sh -c 'mount -t tmpfs none 4' 2>/dev/null && apart="unshare $how sh -c" && break; done
@@ -411,12 +454,19 @@ if [ -n "$apart" ]; then
     rm -f ?/x.png; last='with a full disk'
     $apart "mount -t tmpfs -o size=4k none 2; '$monge' render ?.yaml --size 300x200 -o '{name}/x.png'; status=\$?; ls -A 2 >left.ls; exit \$status" >out 2>err; status=$?
     ok "a full disk" [ $status -eq 2 ]; err_has 'cannot write 2/x.png: No space left'; there 1/x.png 5/x.png; ok "nothing is left there" [ ! -s left.ls ]
+    last='with a disk that gets full'
+    $apart "mount -t tmpfs -o size=8k none 2; '$monge' render [1245].yaml -j 1 --size 300x200 --log 4/log -o 2/; '$monge' render 1.yaml --size 16x12 -o 2/; head -c 8000 /dev/zero >2/rest; '$monge' render 1.yaml --size 300x200 -o 2/" >out 2>err
+    ok "what there is no room for is told" [ "$(grep -c 'cannot write 2/[1245].png: No space' err)" -eq 5 ]
+    ok "and not rendered after the first" [ "$(grep -c 'error\[cannot-write\]' err)" -eq 1 ]; err_has 'wrote 2/1.png'; rm -f 4/log
+    last='with a link out of a full disk'; mkdir elsewhere; echo old >elsewhere/1.png
+    $apart "mount -t tmpfs -o size=4k none 2; ln -s ../elsewhere/1.png 2/1.png; head -c 4096 /dev/zero >2/rest; '$monge' render 1.yaml --size 16x12 -q -o 2/" 2>err; status=$?
+    ok "the file is elsewhere" [ $status -eq 0 ]; ok "it is written" [ "$(wc -c <elsewhere/1.png)" -gt 100 ]
     last='with a full disk and a checkpoint'; cp ../resume/long.yaml .
     $apart "mount -t tmpfs -o size=200k none 2; '$monge' render long.yaml ${long[*]} --resume -o 2/; status=\$?; ls -A 2 >left.ls; cp 2/long.png .; exit \$status" >out 2>err; status=$?
     ok "a checkpoint that has no room" [ $status -eq 0 ]; err_has 'cannot write the checkpoint 2/.long.png.partial: No space'; same long.png ../resume/whole.png; ok "it leaves the room" [ "$(cat left.ls)" = long.png ]
 else left_out "a read-only folder, a full disk: no mounts here"; fi
-(trap '' XFSZ; ulimit -f 8; "$monge" render 1.yaml 2.yaml --size 300x200 -q -o limited/ 2>err); status=$?; last='render under ulimit -f'
-ok "files too large" [ $status -eq 2 ]; err_has 'File too large'; missing limited/1.png
+(ulimit -f 8; "$monge" render 1.yaml 2.yaml 4.yaml --size 300x200 -q -o limited/ 2>err); status=$?; last='render under ulimit -f'
+ok "files too large" [ $status -eq 2 ]; for i in 1 2 4; do err_has "cannot write limited/$i.png: File too large"; missing limited/$i.png; done
 mkfifo wait; printf '1.yaml\n2.yaml\n4.yaml\n' >names; last='render with an input that vanishes'
 cp 1.yaml slow.yaml
 "$monge" render --size 1000x1000 --samples 1 -q -j 1 slow.yaml 2.yaml 4.yaml -o vanished/ 2>err & pid=$!

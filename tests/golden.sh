@@ -813,7 +813,7 @@ if [ "$(id -u)" -ne 0 ]; then
 fi
 last='test with a full disk'
 rm -rf monge-test
-(trap '' XFSZ; ulimit -f 0; "$monge" test s --golden g -q 2>err | cat >out; exit "${PIPESTATUS[0]}"); status=$?
+(ulimit -f 0; "$monge" test s --golden g -q 2>err | cat >out; exit "${PIPESTATUS[0]}"); status=$?
 ok 'a full disk is exit 2' [ $status -eq 2 ]
 ok 'no temporary files' [ -z "$(find . -name '*.tmp')" ]
 if have perl; then
@@ -821,7 +821,29 @@ if have perl; then
     last='test (SIGINT)'
     perl -e 'my $p = fork; exec @ARGV if !$p; select undef, undef, undef, 0.5; kill INT => $p; waitpid $p, 0; exit(($? & 127) == 2 ? 0 : 1)' \
         "$monge" test s --golden g >out 2>err; status=$?
-    ok 'SIGINT ends the run by the signal' [ $status -eq 0 ]; missing monge-test/results.json
+    ok 'SIGINT ends the run by the signal' [ $status -eq 0 ]; ok 'one is not judged' grep -q '"interrupted": ' monge-test/results.json
+    missing monge-test/new/one.png
+    # interrupted ARGS...: of five scenes and a golden without one, b and c are judged when the signal comes, d is rendered
+    interrupted() {
+        fresh; rm -rf s/*; for i in b c e f; do printf 'image: {size: [40, 30]}\nscene: [{sphere: {}}]\n' >s/$i.yaml; done
+        cp s/b.yaml s/gone.yaml; exits 1 test s --golden g -q; exits 0 accept --golden g -q; rm s/gone.yaml
+        sed -i 's/40/50/' s/*.yaml; printf 'image: {size: [3000, 3000], samples: 4096}\nscene: [{sphere: {}}]\n' >s/d.yaml
+        last="test $* (SIGTERM)"
+        "$monge" test s --golden g -j 1 "$@" >out 2>err & local pid=$!
+        until grep -q '[0-9 ]  *- c$\|^changed  *c ' out; do kill -0 $pid || break; sleep 0.02; done
+        sleep 0.2; kill -TERM $pid; wait $pid; status=$?
+        ok 'it ends by the signal' [ $status -eq 143 ]; ok 'and says so' [ "$(cat err)" = 'interrupted: 3 of 5 scenes not judged' ]
+        ok 'only what is judged is there' [ "$(find monge-test -name '*.png' | sort | xargs -n 1 basename | tr '\n' ' ')" = 'b.png c.png ' ]
+    }
+    interrupted --junit x.xml --report r; ok 'a count' grep -qx '2 goldens: 2 changed, in [0-9.]* s' out
+    ok 'no orphans' sh -c '! grep -q orphan out'; ok 'marked in the results' grep -qx ' "interrupted": 3,' monge-test/results.json
+    ok 'the page says so' grep -q 'interrupted: 3 scenes not judged' r/index.html
+    ok 'an error for JUnit' grep -q '<error message="interrupted: 3 scenes not judged"/>' x.xml; ok 'which counts' grep -q 'tests="3" failures="2" errors="1"' x.xml
+    exits 0 accept --golden g --prune; ok 'what is judged is taken' [ "$(cat out)" = $'took b\ntook c\n2 taken' ]
+    ok 'accept says what is not' [ "$(cat err)" = 'the run was interrupted: 3 scenes not judged' ]; there g/gone.png
+    interrupted --tap; ok 'TAP bails out' [ "$(tail -n 1 out)" = 'Bail out! interrupted: 3 scenes not judged' ]
+    interrupted --update-only-failed; ok 'no golden is touched' [ -z "$(find g -newer s/d.yaml -name '*.png')" ]
+    rm s/d.yaml; exits 1 test s --golden g -q; ok 'then all is judged' grep -q '4 changed, 1 orphan' out; ok 'a whole run' sh -c '! grep -q interrupted monge-test/results.json'
 fi
 
 echo "$passed passed, $failed failed"

@@ -197,7 +197,15 @@ static bool prepare_cases(struct acceptance *a) {
     return good;
 }
 
+/* What the run says nothing of stays as it is. */
+static void tell_interruption(const struct acceptance *a) {
+    char *interruption = golden_interruption(&a->results);
+    if (interruption && !a->args->option[OPTION_QUIET].given) say_note("the run was %s", interruption);
+    free(interruption);
+}
+
 static enum status settle(struct acceptance *a) {
+    tell_interruption(a);
     interrupt_defer();
     for (size_t i = 0; i < a->results.count && !interrupt_pending(); i++)
         settle_case(a, &a->results.cases[i]);

@@ -14,4 +14,10 @@ bool aov_write(struct monge_scene *scene, const struct monge_settings *settings,
                const struct monge_region *region, unsigned set, const struct monge_job *job,
                const char *picture, struct report *report);
 
+/* Notes the files of these passes for the film's picture, which is to be written when they are in place. */
+void aov_note(struct monge_film *film, unsigned set, const char *picture);
+
+/* Whether the files of these passes beside the picture are those that it says, by monge:passes. */
+bool aov_unchanged(const struct monge_picture *picture, unsigned set, const char *path);
+
 #endif

@@ -7,9 +7,11 @@
 #include <string.h>
 #include <sys/file.h>
 #include <sys/stat.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "cli/clock.h"
+#include "cli/interrupt.h"
 #include "cli/say.h"
 
 /* Seconds between two times of writing, and before the first. */
@@ -18,6 +20,10 @@
 #else
 #define INTERVAL 1.0
 #endif
+
+#define PATIENCE 1.0 /* seconds that a run which was killed may take to be gone */
+
+#define MAGIC "monge checkpoint 1\n"
 
 enum { MAX_RECORD = 1 << 24 /* bytes; a tile is far smaller */ };
 
@@ -51,7 +57,9 @@ struct checkpoint {
     bool writing;   /* a thread does, and has the rest for itself */
     int fd;         /* -1: there is no file */
     off_t end;      /* of the last whole record */
-    int trouble;    /* errno; EWOULDBLOCK: another run has the file; from then on nothing is written */
+    bool taken;     /* another run has the file, which this one asks for again whenever it would write */
+    bool told;      /* that it is so */
+    int trouble;    /* errno; from then on nothing is written */
 };
 
 /* ---- Records ---- */
@@ -145,6 +153,17 @@ static int open_locked(const char *path, int flags) {
     }
 }
 
+/* The same of a file that is there. A run that was killed has it until the system is done with that, which is waited for. */
+static int open_soon(const char *path) {
+    const struct timespec pause = {0, 20000000};
+    const double end = clock_seconds() + PATIENCE;
+    int fd;
+    while ((fd = open_locked(path, 0)) < 0 && errno == EWOULDBLOCK && clock_seconds() < end &&
+           !interrupt_pending())
+        nanosleep(&pause, NULL);
+    return fd;
+}
+
 static bool has_head(int fd, const char *head) {
     const size_t length = strlen(head);
     char *there = malloc(length);
@@ -179,19 +198,18 @@ static bool begin_file(struct checkpoint *cp) {
     return write_all(cp->fd, cp->head, (size_t)cp->end, 0);
 }
 
-static bool write_records(struct checkpoint *cp, const struct waitings *w) {
+/* 0, or errno. */
+static int write_records(struct checkpoint *cp, const struct waitings *w) {
     size_t size = 0;
     for (size_t i = 0; i < w->count; i++) size += record_bytes(&w->all[i].tile);
     char *bytes = malloc(size), *to = bytes;
     for (size_t i = 0; bytes && i < w->count; i++) to = put_record(to, &w->all[i]);
     const bool good = bytes && (cp->end > 0 || begin_file(cp)) && write_all(cp->fd, bytes, size, cp->end) &&
                       fdatasync(cp->fd) == 0;
-    if (good)
-        cp->end += (off_t)size;
-    else
-        cp->trouble = errno;
+    const int reason = good ? 0 : errno;
+    if (good) cp->end += (off_t)size;
     free(bytes);
-    return good;
+    return reason;
 }
 
 /* What the disk has no room for must not take the room of the picture. */
@@ -227,16 +245,28 @@ static bool add_waiting(struct waitings *w, const struct waiting *tile) {
     return true;
 }
 
+/* What could not be written waits on, ahead of what has come meanwhile. */
+static void put_back(struct waitings *now, struct waitings taken) {
+    for (size_t i = 0; i < now->count; i++) add_waiting(&taken, &now->all[i]);
+    free(now->all);
+    *now = taken;
+}
+
 /* Writes what waits; the lock is held, but not while it writes. */
 static void write_waiting(struct checkpoint *cp) {
     const struct waitings taken = cp->waiting;
     cp->waiting = (struct waitings){NULL, 0, 0};
     cp->writing = true;
     pthread_mutex_unlock(&cp->lock);
-    const bool good = taken.count == 0 || write_records(cp, &taken);
-    if (!good && cp->known_count == 0) give_up(cp);
-    free(taken.all);
+    const int reason = taken.count == 0 ? 0 : write_records(cp, &taken);
+    if (reason && reason != EWOULDBLOCK && cp->known_count == 0) give_up(cp);
     pthread_mutex_lock(&cp->lock);
+    cp->taken = reason == EWOULDBLOCK;
+    if (cp->taken)
+        put_back(&cp->waiting, taken);
+    else
+        free(taken.all);
+    cp->trouble = cp->taken ? 0 : reason;
     cp->writing = false;
     cp->written = clock_seconds();
 }
@@ -265,18 +295,23 @@ static char *path_of(const char *output) {
     return say_text("%.*s.%s.partial", (int)(base - output), output, base);
 }
 
-static void say_taken(const struct checkpoint *cp) {
+static void say_taken(struct checkpoint *cp) {
+    cp->told = true;
     say_note("%s is rendered by another run as well, which keeps %s: this one goes without", cp->output,
              cp->path);
+}
+
+/* Whether a run has made it: one that was killed may not have come to the head. */
+static bool is_checkpoint(int fd) {
+    struct stat status;
+    return has_head(fd, MAGIC) || (fstat(fd, &status) == 0 && S_ISREG(status.st_mode) && status.st_size == 0);
 }
 
 void checkpoint_forget(const char *output) {
     char *path = path_of(output);
     const int fd = open_locked(path, 0);
-    if (fd >= 0) {
-        unlink(path);
-        close(fd);
-    }
+    if (fd >= 0 && is_checkpoint(fd)) unlink(path);
+    if (fd >= 0) close(fd);
     free(path);
 }
 
@@ -295,17 +330,13 @@ struct checkpoint *checkpoint_open(const char *output, const char *what) {
     if (!cp) return NULL;
     const uint32_t order = 0x01020304; /* of the bytes in a number: as this machine has it */
     *cp = (struct checkpoint){.path = path_of(output), .output = output, .written = clock_seconds()};
-    cp->head = say_text("monge checkpoint 1\n%s\n%.4s\n\n", what, (const char *)&order);
+    cp->head = say_text(MAGIC "%s\n%.4s\n\n", what, (const char *)&order);
     cp->tiles = (struct monge_tiles){cp, known_tile, tile_done, rendering_stopped};
     pthread_mutex_init(&cp->lock, NULL);
-    cp->fd = open_locked(cp->path, 0);
-    if (cp->fd >= 0 && has_head(cp->fd, cp->head)) {
-        read_records(cp);
-    } else if (cp->fd < 0 && errno == EWOULDBLOCK) {
-        say_taken(cp);
-        free_checkpoint(cp);
-        return NULL;
-    }
+    cp->fd = open_soon(cp->path);
+    cp->taken = cp->fd < 0 && errno == EWOULDBLOCK;
+    if (cp->taken) say_taken(cp);
+    if (cp->fd >= 0 && has_head(cp->fd, cp->head)) read_records(cp);
     return cp;
 }
 
@@ -320,10 +351,8 @@ uint64_t checkpoint_pixels(const struct checkpoint *checkpoint) {
 
 void checkpoint_close(struct checkpoint *cp, bool complete) {
     if (!cp) return;
-    if (cp->trouble == EWOULDBLOCK)
-        say_taken(cp);
-    else if (cp->trouble)
-        say_error("cannot write the checkpoint %s: %s", cp->path, strerror(cp->trouble));
+    if (cp->taken && !cp->told) say_taken(cp);
+    if (cp->trouble) say_error("cannot write the checkpoint %s: %s", cp->path, strerror(cp->trouble));
     if (cp->fd >= 0 && complete) unlink(cp->path);
     free_checkpoint(cp);
 }

@@ -5,7 +5,8 @@
  *
  * Records are only ever added, so that a run that is killed leaves whole ones and at most a torn last one, which its
  * checksum tells. A file of another picture, of other settings or of another program is no checkpoint of this one, and
- * is replaced. While a run has the file, it is locked. */
+ * is replaced. While a run has the file, it is locked; another one for the same picture goes without as long as that
+ * lasts. */
 #ifndef MONGE_CLI_CHECKPOINT_H
 #define MONGE_CLI_CHECKPOINT_H
 
@@ -14,8 +15,8 @@
 struct checkpoint;
 
 /* The checkpoint of the picture that `output` is to become, `what` being a text that is the same for the same pixels
- * alone. Where there is none to go on with, one begins once the rendering has taken a while. NULL, with the reason
- * told, where it cannot be: another run has it, or no memory. */
+ * alone. Where there is none to go on with, one begins once the rendering has taken a while. NULL where there is no
+ * memory. */
 struct checkpoint *checkpoint_open(const char *output, const char *what);
 
 /* For monge_job; lives as long as the checkpoint. */
@@ -24,7 +25,8 @@ const struct monge_tiles *checkpoint_tiles(const struct checkpoint *checkpoint);
 /* Pixels that were known when it was opened. */
 uint64_t checkpoint_pixels(const struct checkpoint *checkpoint);
 
-/* Removes what there may be for a picture that is complete: its run was stopped before it could do so. */
+/* Removes what there may be for a picture that is complete, of a run that was stopped; not what a run has that is at
+ * work. */
 void checkpoint_forget(const char *output);
 
 /* Done with it, with the reason told where something could not be kept; `complete`: the picture is in its place, so

@@ -173,6 +173,11 @@ const char *const STATUS_DOC[] = {
     [STATUS_TROUBLE] = "trouble: wrong usage, a file that cannot be read or written, no memory",
 };
 
+const char SIGNAL_DOC[] =
+    "SIGINT (Ctrl-C), SIGTERM and SIGHUP end render and test by the signal, which a shell shows as 130, 143 "
+    "and 129, "
+    "after a line that tells what is done; another one, half a second later, ends them at once.";
+
 const struct command_row COMMAND_TABLE[COMMANDS] = {
     [COMMAND_NONE] =
         {
@@ -223,13 +228,17 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                  "it. What fails does not keep the others from being rendered, unless --fail-fast is "
                  "given.",
                  "--skip-unchanged leaves a picture alone that is whole and says, in its text chunks, that "
-                 "this program made it of these files with these options; with --aov, none. --resume does so "
-                 "too, and for a "
-                 "picture that takes longer than a second keeps the tiles that are done in .NAME.png.partial "
+                 "this program made it of these files with these options; with --aov, its passes too. "
+                 "--resume does "
+                 "so as well, and for a picture that takes longer than a second keeps the tiles that are "
+                 "done in .NAME.png.partial "
                  "beside it: the same command, given again after the first run was stopped in whatever way, "
                  "goes on from there, to the same bytes. The file goes when the picture is complete; it "
                  "counts for nothing where the scene, the settings or the program are no longer the same. "
-                 "Of two runs for the same picture one keeps the tiles, and both make the picture.",
+                 "Of two runs for the same picture one keeps the tiles, and both make the picture. When a "
+                 "signal ends a batch, it tells what is done; --stats and --log have that, and nothing of "
+                 "what "
+                 "was cut short.",
                  "--dry-run writes nothing: it prints `SCENE -> FILE: would be rendered`, with "
                  "--skip-unchanged or "
                  "--resume `: its text differs` or what else the reason is, or `unchanged`. Scenes are read "
@@ -330,6 +339,7 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                  "to take. Orphans are looked for where no scenes are given, or folders alone; a golden "
                  "whose scene is still there, below the root or else in a folder of the run, one above it, "
                  "or elsewhere below the current one, is none.",
+                 "A run that a signal ends writes what it has judged, for `monge accept` to take.",
                  "Exit status 1 where anything is not the same. " IN_DOCUMENTS(
                      "testing.md") " has all of it.",
                  LIMITS_TEXT},

@@ -148,6 +148,7 @@ struct command_row {
 extern const struct command_row COMMAND_TABLE[COMMANDS];
 
 extern const char *const STATUS_DOC[STATUS_TROUBLE + 1];
+extern const char SIGNAL_DOC[]; /* and what there is besides: the statuses of signals */
 
 static inline bool command_takes(enum command_id command, enum option_id option) {
     return OPTION_TABLE[option].commands >> command & 1;

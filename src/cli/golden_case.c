@@ -6,6 +6,7 @@
 
 #include "cli/asked.h"
 #include "cli/clock.h"
+#include "cli/golden_folder.h"
 #include "cli/golden_run.h"
 #include "cli/interrupt.h"
 #include "cli/pattern.h"
@@ -100,6 +101,13 @@ static struct golden_case *add_case(const struct subject *s) {
     return c;
 }
 
+/* What became of the last case while a signal came is not known. */
+static void drop_case(const struct subject *s) {
+    struct golden_case *c = &s->scene->cases[--s->scene->count];
+    golden_clear(s->run->output, c->name);
+    golden_case_free(c);
+}
+
 /* One that cannot hold is none: that of a rule is told when that is read, that of a scene here. */
 static void set_tolerance(const struct subject *s, struct golden_case *c) {
     const struct monge_tolerance *own = monge_scene_tolerance(s->load->scene);
@@ -154,7 +162,7 @@ static struct monge_film *render(const struct subject *s, struct golden_case *c,
     return NULL;
 }
 
-/* Everything after loading. A signal in here ends the program once nothing is half done. */
+/* Everything after loading. */
 static void run_case(const struct subject *s, struct golden_case *c) {
     struct monge_settings settings;
     struct monge_region region;
@@ -165,13 +173,11 @@ static void run_case(const struct subject *s, struct golden_case *c) {
         c->unchanged = true;
         return;
     }
-    interrupt_defer();
     struct monge_film *film = render(s, c, &settings, &region);
     if (film) golden_judge(s->run, c, film, has_golden);
     if (film && c->new_path && s->scene->rule->rule->aov)
         golden_judge_layers(s->run, s->load->scene, &settings, &region, c);
     monge_film_free(film);
-    interrupt_settle();
 }
 
 /* ---- Frames, combinations ---- */
@@ -203,6 +209,7 @@ static void run_frames(struct subject *s) {
         if (status == STATUS_YES) run_case(s, c);
         listen_end(&listener, c);
         c->seconds = clock_seconds() - begun;
+        if (interrupt_pending()) drop_case(s);
     }
     free(frames);
 }
@@ -221,6 +228,7 @@ static void run_combination(struct subject *s) {
     c->trouble = load.status == STATUS_TROUBLE;
     listen_end(&listener, c);
     c->seconds = clock_seconds() - begun;
+    if (!load.scene && interrupt_pending()) drop_case(s);
     const size_t first = s->scene->count;
     if (load.scene) run_frames(s);
     if (first < s->scene->count) s->scene->cases[first].seconds += c->seconds;
@@ -240,4 +248,5 @@ void golden_scene_run(const struct golden_run *run, struct golden_scene *scene) 
         run_combination(&s);
     }
     free(defines);
+    scene->done = !interrupt_pending();
 }

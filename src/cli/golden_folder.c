@@ -150,6 +150,18 @@ bool golden_remove_picture(const char *folder, const char *path) {
     return golden_remove(folder, path) && good;
 }
 
+bool golden_clear(const char *output, const char *name) {
+    static const char *const folders[] = {"new", "old"};
+    bool good = true;
+    for (size_t i = 0; i < 2 && golden_name_is_safe(name); i++) {
+        char *folder = golden_path(output, folders[i], ""), *path = golden_path(folder, name, ".png");
+        good &= golden_remove_picture(output, path);
+        free(path);
+        free(folder);
+    }
+    return good;
+}
+
 /* ---- What is there ---- */
 
 struct names {

@@ -38,6 +38,9 @@ bool golden_remove(const char *folder, const char *path);
 /* The same of a picture and of the layers beside it. */
 bool golden_remove_picture(const char *folder, const char *path);
 
+/* Removes what a run has left of a case in its folder: the new picture and the old one, with their passes. */
+bool golden_clear(const char *output, const char *name);
+
 /* The names of all pictures below a folder but for layers of others, sorted, up to a NULL; a folder that is not
  * there has none. To be freed, with its texts. */
 char **golden_names(const char *folder);

@@ -87,11 +87,19 @@ static void put_case(FILE *out, const struct golden_case *c) {
     free(folder);
 }
 
+/* So that a run which was stopped does not look like one in which all is well. */
+static void put_interruption(FILE *out, const char *interruption) {
+    fputs("    <testcase classname=\"monge\" name=\"interrupted\">\n      <error", out);
+    put_attribute(out, "message", interruption);
+    fputs("/>\n    </testcase>\n", out);
+}
+
 char *golden_junit_text(const struct golden_results *results) {
     char *text = NULL;
     size_t size = 0, skipped = 0;
-    const size_t errors = golden_count(results, GOLDEN_BROKEN);
-    const size_t failures = results->count - golden_count(results, GOLDEN_SAME) - errors;
+    char *interruption = golden_interruption(results);
+    const size_t broken = golden_count(results, GOLDEN_BROKEN), more = interruption ? 1 : 0;
+    const size_t failures = results->count - golden_count(results, GOLDEN_SAME) - broken;
     FILE *out = open_memstream(&text, &size);
     if (!out) {
         say_error("out of memory");
@@ -100,9 +108,11 @@ char *golden_junit_text(const struct golden_results *results) {
     for (size_t i = 0; i < results->count; i++) skipped += results->cases[i].unchanged;
     fputs("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n  <testsuite name=\"monge test\"", out);
     fprintf(out, " tests=\"%zu\" failures=\"%zu\" errors=\"%zu\" skipped=\"%zu\" time=\"%.3f\">\n",
-            results->count, failures, errors, skipped, results->seconds);
+            results->count + more, failures, broken + more, skipped, results->seconds);
     for (size_t i = 0; i < results->count; i++) put_case(out, &results->cases[i]);
+    if (interruption) put_interruption(out, interruption);
     fputs("  </testsuite>\n</testsuites>\n", out);
     fclose(out);
+    free(interruption);
     return text;
 }

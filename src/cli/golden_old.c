@@ -1,4 +1,6 @@
 /* The picture of a golden that is a hash: by --old, the program that made it, or by a command that takes the scene of then. */
+#include <errno.h>
+#include <signal.h>
 #include <spawn.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,6 +10,7 @@
 #include "cli/golden_folder.h"
 #include "cli/golden_run.h"
 #include "cli/golden_settings.h"
+#include "cli/interrupt.h"
 #include "cli/say.h"
 
 /* ---- --old ---- */
@@ -18,7 +21,11 @@ static bool run_command(char *command) {
     pid_t child;
     int status;
     if (posix_spawn(&child, "/bin/sh", NULL, NULL, words, environ) != 0) return false;
-    return waitpid(child, &status, 0) == child && WIFEXITED(status) && WEXITSTATUS(status) == 0;
+    while (waitpid(child, &status, 0) < 0) {
+        if (errno != EINTR) return false;
+        kill(child, SIGTERM);
+    }
+    return WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
 /* An old program may not know passes. */
@@ -31,7 +38,7 @@ static bool render(const char *program, const struct golden_case *c, const char 
     free(command);
     free(quoted_path);
     free(quoted_program);
-    return good || (passes && render(program, c, path, false));
+    return good || (passes && !interrupt_pending() && render(program, c, path, false));
 }
 
 /* Whether the picture is the one that the golden is the hash of. */

@@ -107,6 +107,7 @@ static enum golden_reading read_document(struct golden_results *results, const c
     const struct monge_value *root = document ? monge_document_root(document) : NULL;
     const bool others = root && !monge_value_text(root) && !monge_value_get(root, "golden");
     results->folder = read_text(root, "golden");
+    results->interrupted = read_whole(monge_value_get(root, "interrupted"));
     read_places(root, &results->places);
     const bool good = results->folder && read_cases(results, monge_value_get(root, "scenes"));
     const bool unread = monge_diagnostics_failures(diag) > 0;

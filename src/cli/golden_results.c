@@ -28,6 +28,11 @@ char *golden_summary(const struct golden_results *results) {
     return text;
 }
 
+char *golden_interruption(const struct golden_results *results) {
+    const size_t scenes = results->interrupted;
+    return scenes ? say_text("interrupted: %zu scene%s not judged", scenes, scenes == 1 ? "" : "s") : NULL;
+}
+
 /* ---- Writing ---- */
 
 static void put_key(FILE *out, const char *key) { fprintf(out, ",\n     \"%s\": ", key); }
@@ -205,8 +210,9 @@ static void put_places(FILE *out, const struct golden_places *places) {
 }
 
 static void put_head(FILE *out, const struct golden_results *results) {
-    char *summary = golden_summary(results),
-         *about = say_text("monge %s, %s, in %.1f s", monge_version(), summary, results->seconds);
+    char *summary = golden_summary(results), *interruption = golden_interruption(results);
+    char *about = say_text("monge %s, %s, in %.1f s%s%s", monge_version(), summary, results->seconds,
+                           interruption ? ", " : "", interruption ? interruption : "");
     fputs("{\"about\": ", out);
     monge_write_json_string(about, out);
     fprintf(out, ",\n \"version\": \"%s\",\n \"program\": \"%s\",\n \"golden\": ", monge_version(),
@@ -216,8 +222,11 @@ static void put_head(FILE *out, const struct golden_results *results) {
     fputs(",\n \"summary\": {", out);
     for (enum golden_status s = 0; s < GOLDEN_STATUSES; s++)
         fprintf(out, "%s\"%s\": %zu", s ? ", " : "", GOLDEN_STATUS[s], golden_count(results, s));
-    fprintf(out, "},\n \"seconds\": %.3f,\n \"scenes\": [\n", results->seconds);
+    fputs("}", out);
+    if (results->interrupted) fprintf(out, ",\n \"interrupted\": %zu", results->interrupted);
+    fprintf(out, ",\n \"seconds\": %.3f,\n \"scenes\": [\n", results->seconds);
     free(about);
+    free(interruption);
     free(summary);
 }
 

@@ -11,6 +11,8 @@ struct golden_results {
     size_t elsewhere;            /* goldens of scenes that are in these places, and not in the run */
     struct golden_case *cases;
     size_t count;
+    size_t
+        interrupted; /* scenes that are not judged, as a signal came; their goldens are none of the cases */
     double seconds;
 };
 
@@ -18,6 +20,9 @@ size_t golden_count(const struct golden_results *results, enum golden_status sta
 
 /* "30 goldens: 27 same, 2 changed, 1 new". To be freed. */
 char *golden_summary(const struct golden_results *results);
+
+/* "interrupted: 3 scenes not judged"; NULL: it was not. To be freed. */
+char *golden_interruption(const struct golden_results *results);
 
 /* The document. To be freed; its end is a line break. */
 char *golden_results_text(const struct golden_results *results);

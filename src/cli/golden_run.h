@@ -13,6 +13,7 @@ struct golden_scene {
     struct golden_rule *rule;
     struct golden_case *cases; /* owned */
     size_t count;
+    bool done; /* no signal has come before its last case was judged */
 };
 
 struct golden_run {
@@ -28,7 +29,8 @@ struct golden_run {
     size_t count;
 };
 
-/* Renders the pictures of a scene, and judges them: its cases. */
+/* Renders the pictures of a scene, and judges them: its cases. One that a signal has cut short is none, and leaves nothing
+ * behind. */
 void golden_scene_run(const struct golden_run *run, struct golden_scene *scene);
 
 /* Whether goldens of this kind have pixels, so that a difference can be within a tolerance: hashes have with --old alone. */

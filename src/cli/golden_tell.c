@@ -118,10 +118,13 @@ void golden_tell(struct golden_teller *teller, const struct golden_case *c) {
 }
 
 void golden_tell_end(struct golden_teller *teller, const struct golden_results *results) {
-    char *summary = golden_summary(results);
-    if (teller->tap)
+    char *summary = golden_summary(results), *interruption = golden_interruption(results);
+    if (teller->tap && interruption)
+        fprintf(teller->out, "Bail out! %s\n", interruption);
+    else if (teller->tap)
         fprintf(teller->out, "1..%zu\n# %s\n", teller->told, summary);
     else
         fprintf(teller->out, "%s, in %.1f s\n", summary, results->seconds);
+    free(interruption);
     free(summary);
 }

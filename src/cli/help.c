@@ -76,6 +76,7 @@ static void print_overview(FILE *out) {
     fputs("\n`monge help COMMAND` tells more, `monge help language` how to write scenes.\nExit status:\n",
           out);
     for (int s = 0; s <= STATUS_TROUBLE; s++) fprintf(out, "  %d  %s\n", s, STATUS_DOC[s]);
+    print_wrapped(out, SIGNAL_DOC, 0, 0);
 }
 
 static bool is_kind(const char *word) {

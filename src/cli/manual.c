@@ -128,6 +128,8 @@ void manual_print(FILE *out) {
         fprintf(out, ".TP\n%d\n", s);
         print_line(out, STATUS_DOC[s]);
     }
+    fputs(".PP\n", out);
+    print_line(out, SIGNAL_DOC);
     print_terms(out, "ENVIRONMENT", environment);
     print_terms(out, "FILES", files);
     print_examples(out);

@@ -242,13 +242,27 @@ static bool check_streams(const struct plan *plan) {
 
 /* ---- Folders ---- */
 
+/* Once, however many pictures there are for it. */
+static void tell_lost(struct plan *plan, const char *folder, int reason) {
+    pthread_mutex_lock(&plan->lock);
+    const bool told = plan->lost && strcmp(plan->lost, folder) == 0;
+    if (!told) {
+        free(plan->lost);
+        plan->lost = say_text("%s", folder);
+    }
+    pthread_mutex_unlock(&plan->lock);
+    if (!told)
+        say_error("cannot make the folder %s: %s", folder,
+                  access(folder, F_OK) == 0 ? "it is a file" : strerror(reason));
+}
+
 /* Makes the folder before the last slash of `path`, and those above it. */
-static bool make_folder(char *path) {
+static bool make_folder(struct plan *plan, char *path) {
     for (char *slash = strchr(path + 1, '/'); slash; slash = strchr(slash + 1, '/')) {
         *slash = '\0';
         const int reason = mkdir(path, 0777) == 0 ? 0 : errno;
         const bool there = is_folder(path);
-        if (!there) say_error("cannot make the folder %s: %s", path, strerror(reason));
+        if (!there) tell_lost(plan, path, reason);
         *slash = '/';
         if (!there) return false;
     }
@@ -265,6 +279,16 @@ static bool check_writable(const char *path) {
     if (!writable) say_error("cannot write %s: %s", path, strerror(errno));
     free(folder);
     return writable;
+}
+
+/* A FILE of -o has its folder already. */
+static bool check_folder(const char *path) {
+    const size_t length = folder_length(path);
+    char *folder = say_text("%.*s", (int)length, path);
+    const bool there = length == 0 || access(folder, F_OK) == 0;
+    if (!there) say_error("cannot write %s: %s; -o %s would make the folder", path, strerror(errno), folder);
+    free(folder);
+    return there;
 }
 
 /* Whether folders are made: a FILE of -o asks for none, so that a slip of the pen makes none. */
@@ -284,10 +308,10 @@ static bool check_passes_writable(const struct plan *plan, const char *picture) 
     return writable;
 }
 
-bool plan_reach(const struct plan *plan, const char *path) {
+bool plan_reach(struct plan *plan, const char *path) {
     char *copy = say_text("%s", path);
-    const bool good = (!makes_folders(plan) || make_folder(copy)) && check_writable(path) &&
-                      check_passes_writable(plan, path);
+    const bool good = (makes_folders(plan) ? make_folder(plan, copy) : check_folder(path)) &&
+                      check_writable(path) && check_passes_writable(plan, path);
     free(copy);
     return good;
 }
@@ -349,6 +373,7 @@ void plan_free(struct plan *plan) {
     }
     for (size_t i = 0; i < plan->claim_count; i++) free(plan->claims[i].place);
     free(plan->claims);
+    free(plan->lost);
     free(plan->outputs);
 }
 

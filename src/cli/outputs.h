@@ -24,9 +24,10 @@ struct plan {
     unsigned passes;                   /* a bit 1 << layer for each that --aov asks for */
     struct output *outputs; /* each scene with each combination, the combinations running fastest */
     size_t count;
-    pthread_mutex_t lock; /* of the claims */
+    pthread_mutex_t lock; /* of what follows */
     struct claim *claims; /* files that are read or written */
     size_t claim_count;
+    char *lost; /* owned: the folder that could not be made, as was told; NULL: none */
 };
 
 /* Plans the outputs, and sees to it that nothing is written twice, or over a scene or the file of --stats or --log.
@@ -35,9 +36,9 @@ bool plan_begin(struct plan *plan, const struct arguments *args, const struct sc
                 const struct sweep *sweep);
 void plan_free(struct plan *plan);
 
-/* Whether a picture can be written there; makes the folders that -o asks for. False: the reason has been told. As
- * plan_frames, from any thread. */
-bool plan_reach(const struct plan *plan, const char *path);
+/* Whether a picture can be written there; makes the folders that -o asks for. False: the reason has been told, that of
+ * a folder once. As plan_frames, from any thread. */
+bool plan_reach(struct plan *plan, const char *path);
 
 /* Whether pictures go where their order matters: to a pipe, a device or standard output. */
 bool plan_is_serial(const struct plan *plan);

@@ -32,8 +32,12 @@ static struct picture *add_picture(struct unit *unit, const char *path, unsigned
     return &pictures[unit->count++];
 }
 
-/* The last picture of the unit is done. */
+/* The last picture of the unit is done. What a signal has cut short is no failure: it is as if it had not been begun. */
 static enum status end_picture(struct unit *unit, enum status status) {
+    if (unit->pictures[unit->count - 1].outcome == PICTURE_FAILED && interrupt_pending()) {
+        free(unit->pictures[--unit->count].output);
+        return status;
+    }
     progress_done(&unit->progress, unit->pictures[unit->count - 1].outcome);
     return status;
 }
@@ -49,9 +53,9 @@ static const char *reason_to_render(const struct unit *unit, const char *path, u
     const struct work *work = unit->work;
     const struct output *output = unit->output;
     if (!work_wants(work, OPTION_SKIP_UNCHANGED) && !work_wants(work, OPTION_RESUME)) return "";
-    if (work->plan.passes) return "--aov is given"; /* a picture does not say that its passes are right */
     char *asked = asked_text(work->args.option, output->defines, work->loader.sweep.count, frame);
-    const char *reason = unchanged_reason(path, output->scene, asked, &work->loader.limits.load);
+    const char *reason =
+        unchanged_reason(path, output->scene, asked, work->plan.passes, &work->loader.limits.load);
     free(asked);
     return reason;
 }
@@ -59,7 +63,7 @@ static const char *reason_to_render(const struct unit *unit, const char *path, u
 static bool is_unchanged(const struct unit *unit, const char *path, unsigned frame) {
     const struct work *work = unit->work;
     if (reason_to_render(unit, path, frame)) return false;
-    if (work_wants(work, OPTION_RESUME)) checkpoint_forget(path);
+    checkpoint_forget(path);
     if (!work_wants(work, OPTION_QUIET)) say_note("unchanged %s", path);
     return true;
 }
@@ -96,7 +100,7 @@ static void tell_foreseen(const struct unit *unit) {
 /* Into the last picture; the scene stands at frame *at, which moves. */
 static enum status render_frame(struct unit *unit, struct load *load, unsigned frame, unsigned *at,
                                 double begun) {
-    const struct work *work = unit->work;
+    struct work *work = unit->work;
     struct picture *picture = &unit->pictures[unit->count - 1];
     if (work_wants(work, OPTION_DRY_RUN)) return foresee(unit, frame);
     if (work->plan.frames && !plan_reach(&work->plan, picture->output)) return STATUS_TROUBLE;
@@ -168,7 +172,10 @@ static enum status render_output(struct unit *unit) {
     enum status status;
     if (is_settled(unit, &status)) return status;
     struct load load = load_scene(loader, unit->output->scene, unit->output->defines, frame);
-    status = load.scene ? render_load(unit, &load, begun) : fail_output(unit, load.status);
+    if (!load.scene || interrupt_pending())
+        status = fail_output(unit, load.status);
+    else
+        status = render_load(unit, &load, begun);
     load_close(loader, &load);
     return status;
 }
@@ -216,21 +223,47 @@ static void list_failures(const struct work *work) {
         }
 }
 
+static size_t count_pictures(const struct work *work) {
+    const size_t *n = work->outcomes;
+    return n[PICTURE_RENDERED] + n[PICTURE_UNCHANGED] + n[PICTURE_FAILED];
+}
+
+/* Of those that are not rendered: ", 3 unchanged, 1 failed". To be freed. */
+static char *count_others(const struct work *work) {
+    const size_t unchanged = work->outcomes[PICTURE_UNCHANGED], failed = work->outcomes[PICTURE_FAILED];
+    char *first = unchanged ? say_text(", %zu unchanged", unchanged) : say_text("%s", "");
+    char *both = failed ? say_text("%s, %zu failed", first, failed) : say_text("%s", first);
+    free(first);
+    return both;
+}
+
 static void summarize(const struct work *work) {
-    const size_t *n = work->outcomes, left = work->plan.count - work->begun;
-    const size_t all = n[PICTURE_RENDERED] + n[PICTURE_UNCHANGED] + n[PICTURE_FAILED];
+    const size_t *n = work->outcomes, left = work->plan.count - work->begun, all = count_pictures(work);
     const bool wanted = all > FEW || (all + left > 1 && n[PICTURE_RENDERED] < all + left);
     if (!wanted || work_wants(work, OPTION_QUIET)) return;
-    char *unchanged =
-        n[PICTURE_UNCHANGED] ? say_text(", %zu unchanged", n[PICTURE_UNCHANGED]) : say_text("%s", "");
-    char *failed = n[PICTURE_FAILED] ? say_text(", %zu failed", n[PICTURE_FAILED]) : say_text("%s", "");
+    char *others = count_others(work);
     char *rest = left ? say_text(", %zu not begun", left) : say_text("%s", "");
-    say_note("%zu %srendered%s%s%s", n[PICTURE_RENDERED], work_wants(work, OPTION_DRY_RUN) ? "would be " : "",
-             unchanged, failed, rest);
+    say_note("%zu %srendered%s%s", n[PICTURE_RENDERED], work_wants(work, OPTION_DRY_RUN) ? "would be " : "",
+             others, rest);
     free(rest);
-    free(failed);
-    free(unchanged);
+    free(others);
     if (all > FEW) list_failures(work);
+}
+
+/* How the rest is made of a batch that a signal has stopped; "" where it must begin anew. */
+static const char *way_on(const struct work *work) {
+    const size_t *n = work->outcomes;
+    if (plan_is_serial(&work->plan)) return "";
+    if (work_wants(work, OPTION_RESUME)) return "; the same command goes on";
+    return n[PICTURE_RENDERED] + n[PICTURE_UNCHANGED] > 0 ? "; the same command with --resume goes on" : "";
+}
+
+static void tell_interrupted(const struct work *work) {
+    if (work_wants(work, OPTION_QUIET)) return;
+    char *others = count_others(work);
+    say_note("interrupted: %zu of %zu rendered%s%s", work->outcomes[PICTURE_RENDERED],
+             work->progress.pictures, others, way_on(work));
+    free(others);
 }
 
 static bool write_stats(const struct work *work, const char *path) {
@@ -240,9 +273,7 @@ static bool write_stats(const struct work *work, const char *path) {
     for (size_t i = 0; all && i < work->begun; i++)
         for (size_t k = 0; k < work->units[i].count; k++) *to++ = work->units[i].pictures[k];
     if (!all) say_error("out of memory");
-    interrupt_defer();
     const bool written = all && stats_write(path, all, count);
-    interrupt_settle();
     free(all);
     return written;
 }
@@ -258,7 +289,10 @@ static enum status render_all(struct work *work) {
                    option[OPTION_QUIET].given, work->plan.count);
     work->begun = batch_run(&batch);
     progress_end(&work->progress);
-    summarize(work);
+    if (interrupt_pending() && count_pictures(work) < work->progress.pictures)
+        tell_interrupted(work);
+    else
+        summarize(work);
     if (option[OPTION_STATS].text && !dry && !write_stats(work, option[OPTION_STATS].text))
         work->worst = STATUS_TROUBLE;
     return log_close(&work->log) ? work->worst : STATUS_TROUBLE;
@@ -300,8 +334,11 @@ enum status render_command(const struct arguments *args) {
     if (contradicts(args, OPTION_SHADOW, OPTION_NO_SHADOWS) ||
         contradicts(args, OPTION_KEEP_GOING, OPTION_FAIL_FAST))
         return STATUS_TROUBLE;
-    const bool begun = work_begin(&work, args);
+    const bool begun = work_begin(&work, args); /* here a signal may still end the program at once */
+    interrupt_defer();
     const enum status status = begun ? render_all(&work) : STATUS_TROUBLE;
     work_end(&work, begun);
+    streams_flush();
+    interrupt_settle();
     return status;
 }

@@ -1,5 +1,6 @@
 #include "cli/render_picture.h"
 
+#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -9,6 +10,7 @@
 #include "cli/checkpoint.h"
 #include "cli/clock.h"
 #include "cli/interrupt.h"
+#include "cli/room.h"
 #include "cli/say.h"
 #include "cli/stats.h"
 
@@ -36,16 +38,18 @@ static char *progress_title(const struct unit *unit, const struct load *load, un
                  : say_text("%s", unit->output->name);
 }
 
+static bool is_file(const char *output) {
+    struct stat there;
+    return strcmp(output, "-") != 0 && (stat(output, &there) != 0 || S_ISREG(there.st_mode));
+}
+
 static struct checkpoint *open_checkpoint(const struct unit *unit, const struct load *load,
                                           const struct picture *picture) {
-    struct stat there;
     const struct monge_settings *s = &picture->settings;
     const struct monge_region *r = &picture->region;
     char scene[MONGE_HASH_SIZE];
     const char *output = picture->output;
-    if (!work_wants(unit->work, OPTION_RESUME) || strcmp(output, "-") == 0 ||
-        (stat(output, &there) == 0 && !S_ISREG(there.st_mode)))
-        return NULL;
+    if (!work_wants(unit->work, OPTION_RESUME) || !is_file(output)) return NULL;
     monge_scene_hash(load->scene, s, scene);
     char *what = say_text("program %s\nscene %s\nregion %u,%u,%u,%u of %ux%u", monge_program(), scene, r->x,
                           r->y, r->width, r->height, s->width, s->height);
@@ -83,6 +87,15 @@ static struct monge_film *render_film(struct unit *unit, const struct load *load
     return NULL;
 }
 
+/* So that nothing is rendered that cannot be kept. Some room is enough, until a picture was too much for it: from then on
+ * there must be about as much as a picture takes, a byte a pixel. */
+static bool check_room(const struct unit *unit, const struct picture *picture) {
+    const uint64_t pixels = (uint64_t)picture->region.width * picture->region.height;
+    if (!is_file(picture->output) || room_for(picture->output, unit->work->tight ? pixels : 1)) return true;
+    say_error("cannot write %s: %s", picture->output, strerror(errno));
+    return false;
+}
+
 static bool write_film(const struct monge_film *film, const char *path, struct report *report) {
     struct monge_diagnostics *diag = report_open(report);
     const bool written = diag && monge_film_write_png(film, path, diag);
@@ -90,13 +103,17 @@ static bool write_film(const struct monge_film *film, const char *path, struct r
     return written;
 }
 
-/* The auxiliary passes, where there are to be any. */
-static bool write_passes(const struct unit *unit, const struct load *load, const struct picture *picture) {
-    const struct option_value *option = unit->work->args.option;
-    const struct monge_job job = {.threads = option[OPTION_THREADS].number[0], .cancel = interrupt_flag()};
-    return !option[OPTION_AOV].given ||
-           aov_write(load->scene, &picture->settings, &picture->region, option[OPTION_AOV].choices, &job,
-                     picture->output, &unit->work->loader.report);
+/* The auxiliary passes, where there are to be any: before the picture, which tells of their files. */
+static bool write_passes(const struct unit *unit, const struct load *load, const struct picture *picture,
+                         struct monge_film *film) {
+    const unsigned passes = unit->work->plan.passes;
+    const struct monge_job job = {.threads = unit->work->args.option[OPTION_THREADS].number[0],
+                                  .cancel = interrupt_flag()};
+    if (!passes) return true;
+    const bool written = aov_write(load->scene, &picture->settings, &picture->region, passes, &job,
+                                   picture->output, &unit->work->loader.report);
+    if (written) aov_note(film, passes, picture->output);
+    return written;
 }
 
 /* ---- The picture ---- */
@@ -115,34 +132,36 @@ static void note_hashes(const struct unit *unit, const struct monge_film *film, 
     if (!monge_film_hash(film, picture->pixel_hash)) *picture->pixel_hash = '\0';
 }
 
-/* Everything after loading. A signal in here ends the program once nothing is half done. */
+/* Everything after loading. */
 static enum status render_scene(struct unit *unit, const struct load *load, struct picture *picture) {
     enum status status = choose_settings(unit, load, picture);
     if (status != STATUS_YES) return status;
-    interrupt_defer();
+    if (!check_room(unit, picture)) return STATUS_TROUBLE;
     struct checkpoint *checkpoint = open_checkpoint(unit, load, picture);
     tell_resumed(unit, picture, checkpoint);
     struct monge_film *film = render_film(unit, load, picture, checkpoint, &status);
     report_show(&unit->work->loader.report, load->diag);
     const double rendered = clock_seconds();
-    if (film && write_film(film, picture->output, &unit->work->loader.report) &&
-        write_passes(unit, load, picture))
+    if (film && write_passes(unit, load, picture, film) &&
+        write_film(film, picture->output, &unit->work->loader.report))
         picture->outcome = PICTURE_RENDERED;
-    else if (film)
+    else if (film) {
         status = STATUS_TROUBLE;
+        unit->work->tight = true;
+    }
     picture->write_seconds = clock_seconds() - rendered;
     picture->peak_memory_bytes = stats_peak_memory();
     if (film) note_hashes(unit, film, picture);
     checkpoint_close(checkpoint, picture->outcome == PICTURE_RENDERED);
+    if (picture->outcome == PICTURE_RENDERED && is_file(picture->output)) checkpoint_forget(picture->output);
     monge_film_free(film);
-    interrupt_settle();
     return status;
 }
 
 enum status render_picture(struct unit *unit, struct load *load, double begun) {
     struct picture *picture = &unit->pictures[unit->count - 1];
     const double loaded = clock_seconds();
-    const bool built = monge_scene_prepare(load->scene); /* here a signal may still end the program at once */
+    const bool built = monge_scene_prepare(load->scene);
     const double prepared = clock_seconds();
     if (!built)
         say_error("%s: no memory for %zu primitives", unit->output->scene,

@@ -2,6 +2,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <signal.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -68,8 +69,10 @@ char *say_text(const char *format, ...) {
     return text;
 }
 
-/* open takes the lowest number that is free, the missing stream's; the wrong mode makes each use of it fail. */
+/* open takes the lowest number that is free, the missing stream's; the wrong mode makes each use of it fail. A file that
+ * grows over the limit of its size fails with EFBIG, where the signal would end the program without a word. */
 void streams_open(void) {
+    signal(SIGXFSZ, SIG_IGN);
     for (int fd = 0; fd <= 2; fd++)
         if (fcntl(fd, F_GETFD) < 0) (void)!open("/dev/null", fd == 0 ? O_WRONLY : O_RDONLY);
     static char buffer[1 << 18]; /* whatever is printed at once is flushed at once: its errno is known */

@@ -156,17 +156,8 @@ static void warn_of_tolerances(const struct golden_run *run) {
 
 /* What the run before has left. */
 static bool clear_folder(const struct golden_run *run) {
-    static const char *const folders[] = {"new", "old"};
     bool good = true;
-    for (size_t i = 0; i < run->last.count * 2; i++) {
-        const char *name = run->last.cases[i / 2].name;
-        if (!golden_name_is_safe(name)) continue;
-        char *folder = golden_path(run->output, folders[i % 2], "");
-        char *path = golden_path(folder, name, ".png");
-        good &= golden_remove_picture(run->output, path);
-        free(path);
-        free(folder);
-    }
+    for (size_t i = 0; i < run->last.count; i++) good &= golden_clear(run->output, run->last.cases[i].name);
     return good;
 }
 
@@ -344,29 +335,42 @@ static void hint(const struct test *test) {
 
 /* ---- All of it ---- */
 
+/* Scenes that a signal has kept from being judged. */
+static size_t count_undone(const struct golden_run *run) {
+    size_t undone = 0;
+    for (size_t i = 0; i < run->count; i++) undone += !run->scenes[i].done;
+    return undone;
+}
+
+static void tell_interrupted(const struct test *test) {
+    if (test->results.interrupted && !test->teller.quiet)
+        say_note("interrupted: %zu of %zu scenes not judged", test->results.interrupted, test->run.count);
+}
+
 static enum status run_test(struct test *test) {
     struct golden_run *run = &test->run;
     const struct batch batch = {run->count, run->jobs, test, run_scene, end_scene};
     golden_tell_begin(&test->teller);
     if (run->count > 0) batch_run(&batch);
     if (!gather(test)) return STATUS_TROUBLE;
+    test->results.interrupted = count_undone(run);
+    const bool all = test->results.interrupted == 0;
     const size_t first_orphan = test->results.count;
-    find_places(test);
-    golden_find_orphans(run, &test->results);
+    if (all) find_places(test);
+    if (all) golden_find_orphans(run, &test->results);
     for (size_t i = first_orphan; i < test->results.count; i++)
         golden_tell(&test->teller, &test->results.cases[i]);
     test->results.seconds = clock_seconds() - test->begun;
     golden_tell_end(&test->teller, &test->results);
     if (!check_names(test->results.cases, first_orphan)) return STATUS_TROUBLE;
-    interrupt_defer();
-    bool good = !wants(test, OPTION_UPDATE_ONLY_FAILED) || take_new(test);
+    bool good = !all || !wants(test, OPTION_UPDATE_ONLY_FAILED) || take_new(test);
     good &= golden_files_write(&test->results, run->output, test->args.option);
-    interrupt_settle();
     if (!test->teller.tap && !test->teller.quiet) {
         mention_pictures(test);
         mention_elsewhere(test);
         hint(test);
     }
+    tell_interrupted(test);
     return good ? judge(test) : STATUS_TROUBLE;
 }
 
@@ -425,7 +429,11 @@ static void end(struct test *test) {
 
 enum status test_command(const struct arguments *args) {
     struct test test = {.args = *args, .begun = clock_seconds()};
-    const enum status status = begin(&test, args) ? run_test(&test) : STATUS_TROUBLE;
+    const bool begun = begin(&test, args); /* here a signal may still end the program at once */
+    interrupt_defer();
+    const enum status status = begun ? run_test(&test) : STATUS_TROUBLE;
     end(&test);
+    streams_flush();
+    interrupt_settle();
     return status;
 }

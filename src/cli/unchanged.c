@@ -4,6 +4,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "cli/aov.h"
+
 static bool is_file(const char *path) {
     struct stat status;
     return stat(path, &status) == 0 && S_ISREG(status.st_mode);
@@ -34,7 +36,7 @@ static bool is_whole(struct monge_picture *picture, struct monge_diagnostics *di
     return monge_picture_hash(picture, diag, now) && strcmp(said(picture, "monge:pixels"), now) == 0;
 }
 
-const char *unchanged_reason(const char *path, const char *scene, const char *options,
+const char *unchanged_reason(const char *path, const char *scene, const char *options, unsigned passes,
                              const struct monge_limits *limits) {
     if (!is_file(scene)) return "its scene is no file";
     if (!is_file(path)) return access(path, F_OK) != 0 ? "it is not there" : "it is no file";
@@ -42,6 +44,7 @@ const char *unchanged_reason(const char *path, const char *scene, const char *op
     struct monge_picture *picture = diag ? monge_picture_read(path, diag) : NULL;
     const char *reason = picture ? find_difference(picture, scene, options, limits, diag) : "it is damaged";
     if (!reason && !is_whole(picture, diag)) reason = "it is damaged";
+    if (!reason && !aov_unchanged(picture, passes, path)) reason = "its passes are not all whole";
     monge_picture_free(picture);
     monge_diagnostics_free(diag);
     return reason;

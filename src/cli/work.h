@@ -2,6 +2,8 @@
 #ifndef MONGE_CLI_WORK_H
 #define MONGE_CLI_WORK_H
 
+#include <stdatomic.h>
+
 #include "cli/load.h"
 #include "cli/log.h"
 #include "cli/outputs.h"
@@ -26,6 +28,7 @@ struct work {
     struct unit *units; /* one for each output of the plan */
     size_t begun;       /* so many of them */
     size_t outcomes[3]; /* pictures, by theirs */
+    atomic_bool tight;  /* a picture could not be written */
     enum status worst;
 };
 

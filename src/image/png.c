@@ -63,6 +63,7 @@ static void set_texts(struct writer *w) {
     set_hash(w, "monge:text", &film->texts);
     if (film->files && *film->files) set_text(w, "monge:files", film->files);
     if (film->options && *film->options) set_text(w, "monge:options", film->options);
+    if (film->passes && *film->passes) set_text(w, "monge:passes", film->passes);
     if (r.width == settings->width && r.height == settings->height) return;
     snprintf(region, sizeof region, "%u,%u,%u,%u of %ux%u", r.x, r.y, r.width, r.height, settings->width,
              settings->height);

@@ -12,6 +12,7 @@
  *   monge:text     hash of the files that the scene was read from
  *   monge:files    those that it includes, relative to its folder, one a line; absent where there are none
  *   monge:options  what the caller of monge_render says it changed; absent where nothing
+ *   monge:passes   what monge_film_note_passes was told; absent where nothing
  *   monge:region   where it is not the whole: "0,0,16,16 of 320x240"
  *   monge:pixels   hash of the pixels, see image/pixels.h; behind them
  * A regular file is written under a temporary name in the same folder, synced and renamed: complete

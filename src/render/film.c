@@ -17,6 +17,7 @@ void monge_film_free(struct monge_film *film) {
     free(film->rgb);
     free(film->files);
     free(film->options);
+    free(film->passes);
     free(film);
 }
 

@@ -10,7 +10,7 @@ struct monge_film {
     struct monge_region region;     /* pixels of the whole picture */
     struct hash scene;              /* of the evaluated scene and the settings that change a pixel */
     struct hash texts;              /* of the files that the scene was read from */
-    char *files, *options;          /* owned: for the text chunks of its picture; NULL: none */
+    char *files, *options, *passes; /* owned: for the text chunks of its picture; NULL: none */
     float *rgb;                     /* region.width * region.height * 3, row by row from the top left */
 };
 

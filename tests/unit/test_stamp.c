@@ -111,6 +111,28 @@ static void options_and_files_are_told(void **state) {
     assert_chunk("b.png", "monge:files", NULL);
 }
 
+static void passes_are_told_and_change_no_pixel(void **state) {
+    (void)state;
+    char with[MONGE_HASH_SIZE], without[MONGE_HASH_SIZE];
+    write_text("plain.yaml", "scene: [{sphere: {}}]\nimage: {size: [4, 3]}\n");
+    struct monge_diagnostics *diag = monge_diagnostics_new();
+    struct monge_scene *scene = monge_load_file("plain.yaml", NULL, diag);
+    const struct monge_settings settings = monge_scene_settings(scene);
+    struct monge_film *film = monge_render(scene, &settings, NULL, NULL, NULL);
+    assert_true(monge_film_write_png(film, "a.png", diag));
+    assert_true(monge_film_note_passes(film, "depth 0"));
+    assert_true(monge_film_note_passes(film, "object 1\ndepth 2"));
+    assert_true(monge_film_write_png(film, "b.png", diag));
+    assert_chunk("a.png", "monge:passes", NULL);
+    assert_chunk("b.png", "monge:passes", "object 1\ndepth 2");
+    free(read_chunk("a.png", "monge:pixels", without));
+    free(read_chunk("b.png", "monge:pixels", with));
+    assert_string_equal(with, without);
+    monge_film_free(film);
+    monge_scene_free(scene);
+    monge_diagnostics_free(diag);
+}
+
 static void assert_files_hash(const char *path, const char *want, bool equal) {
     struct monge_diagnostics *diag = monge_diagnostics_new();
     char hash[MONGE_HASH_SIZE];
@@ -153,6 +175,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(pixels_are_those_of_the_file, enter_folder, leave_folder),
         cmocka_unit_test_setup_teardown(options_and_files_are_told, enter_folder, leave_folder),
+        cmocka_unit_test_setup_teardown(passes_are_told_and_change_no_pixel, enter_folder, leave_folder),
         cmocka_unit_test_setup_teardown(the_text_changes_with_every_file, enter_folder, leave_folder),
         cmocka_unit_test_setup_teardown(a_missing_file_is_a_failure, enter_folder, leave_folder),
     };
