@@ -708,6 +708,7 @@ for way in 'mkdir' 'mkfifo' 'ln -s /dev/null' 'ln -s nowhere'; do
     done
 done
 fresh; mkfifo g/pipe.png; exits 1 test s --golden g; out_lacks orphan
+fresh; mkfifo pipe; ln -s ../pipe g/pipe.png; exits 1 test s --golden g; says orphan pipe; rm pipe
 # goldens where the run writes
 fresh; exits 1 test s --golden g -q; exits 0 accept --golden g -q; sums g >before; ln -sfn g link
 for folder in g ./g g/ g/. g/../g link link/. "$work/g" s/../link; do
