@@ -370,7 +370,8 @@ static void assert_same_surface(const struct surface *got, const struct surface 
     assert_vec3_near(got->normal, want->normal, 1e-7, "normal");
     const double far = size + vec3_max_abs(want->point);
     assert_vec3_near(got->point, want->point, 1e-9 * far, "point");
-    if (!(got->error > 0.0 && got->error < 1e-9 * far)) fail_msg("error %g", got->error);
+    if (!(got->error > 0.1 * want->error && got->error < 1000 * want->error + 1e-14 * far))
+        fail_msg("error %g, as one primitive %g", got->error, want->error);
 }
 
 static void check_hit(const struct pair *s, ray r, const struct hit *hit, const struct hit *want,
