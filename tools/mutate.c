@@ -264,16 +264,19 @@ static void swap_arguments(int open) {
     }
 }
 
+/* Where the arguments of a sum, a product, or the larger of two change places, nothing else does. */
 static void change_word(int i) {
     static const char *const unwrapped[] = {"sqrt",     "fabs",           "floor",    "vec3_neg",
                                             "vec3_abs", "vec3_normalize", "isfinite", NULL};
+    static const char *const commutative[] = {"vec3_add",   "vec3_mul", "vec3_dot", "box3_upper",
+                                              "box3_lower", "larger",   "smaller",  NULL};
     EXCHANGE(i, words);
     if (is(i - 1, ".") || is(i - 1, "->")) EXCHANGE(i, members);
     if (!is(i + 1, "(")) return;
     if (is_one_of(i, unwrapped)) add("unwrap", i, i, "", 0);
     if (is(i, "if") || is(i, "while"))
         add_copy("negate", i + 1, tokens[i + 1].match, "(!", i + 1, tokens[i + 1].match, ")");
-    else if (!is_one_of(i, keywords))
+    else if (!is_one_of(i, keywords) && !is_one_of(i, commutative))
         swap_arguments(i + 1);
 }
 

@@ -190,6 +190,48 @@ static void check_crossings(void **state) {
     }
 }
 
+/* ---- Where parts meet ---- */
+
+/* The crossings of a ray and of the ray that comes the other way are the same: an edge belongs to the same part from
+ * either side. All numbers are exact, so that the parts do meet in one t. */
+static int check_both_ways(int shape, vec3 edge, vec3 d) {
+    struct alone a;
+    struct crossing there[SHAPE_MAX_CROSSINGS], back[SHAPE_MAX_CROSSINGS];
+    make(&a, shape);
+    const int count = shape_crossings(&a.p, a.ref, (ray){vec3_madd(edge, -4, d), d}, there);
+    assert_int_equal(shape_crossings(&a.p, a.ref, (ray){vec3_madd(edge, 4, d), vec3_neg(d)}, back), count);
+    int met = 0;
+    for (int i = 0; i < count; i++) {
+        const struct crossing *other = &back[count - 1 - i];
+        assert_true(there[i].t == 8 - other->t);
+        assert_int_equal(there[i].part, other->part);
+        met += there[i].t == 4;
+    }
+    return met;
+}
+
+static void check_edges(void **state) {
+    (void)state;
+    static const double steps[] = {-2, -1, -0.5, 0, 0.5, 1, 2};
+    int met = 0;
+    for (int i = 0; i < 27; i++) { /* corners, edges, faces */
+        const vec3 edge = {0.5 * (i % 3 - 1), 0.5 * (i / 3 % 3 - 1), 0.5 * (i / 9 - 1)};
+        for (int k = 1; k < 7 * 7 * 7; k++)
+            met += check_both_ways(CUBE, edge, (vec3){steps[k % 7], steps[k / 7 % 7], steps[k / 49]});
+    }
+    assert_true(met > 1000);
+    met = 0;
+    for (int i = 0; i < 16; i++) {
+        const double out = i & 1 ? 1 : -1, z = i & 2 ? 1 : -1, in = i & 4 ? out : -out;
+        const vec3 way = {in, 0, i & 8 ? z : -z};
+        met += check_both_ways(CYLINDER, (vec3){out, 0, 0.5 * z}, way);
+        met += check_both_ways(CYLINDER, (vec3){0, out, 0.5 * z}, (vec3){0, way.x, way.z});
+        met += check_both_ways(PARABOLOID, (vec3){out, 0, 1}, way);
+        met += check_both_ways(TUBE, (vec3){0, out, 0.5 * z}, (vec3){0, way.x, way.z});
+    }
+    assert_true(met > 20);
+}
+
 static struct first_row {
     const char *name;
     int shape;
@@ -437,7 +479,7 @@ static void check_bounds_of_scaled_hits(void **state) {
 
 int main(void) {
     struct CMUnitTest tests[COUNT(crossing_rows) + COUNT(first_rows) + COUNT(surface_rows) +
-                            COUNT(contains_rows) + COUNT(bounds_rows) + 4];
+                            COUNT(contains_rows) + COUNT(bounds_rows) + 5];
     size_t n = 0;
     for (size_t i = 0; i < COUNT(crossing_rows); i++)
         tests[n++] =
@@ -446,6 +488,7 @@ int main(void) {
         tests[n++] = (struct CMUnitTest){first_rows[i].name, check_first, NULL, NULL, &first_rows[i]};
     for (size_t i = 0; i < COUNT(surface_rows); i++)
         tests[n++] = (struct CMUnitTest){surface_rows[i].name, check_surface, NULL, NULL, &surface_rows[i]};
+    tests[n++] = (struct CMUnitTest){"edges, from either side", check_edges, NULL, NULL, NULL};
     tests[n++] = (struct CMUnitTest){"the apex of a cone has a normal", check_apex, NULL, NULL, NULL};
     tests[n++] = (struct CMUnitTest){"errors without infinity", check_endless, NULL, NULL, NULL};
     for (size_t i = 0; i < COUNT(contains_rows); i++)

@@ -30,7 +30,8 @@ static double rounding_at(const struct subject *s, int part, vec3 p, double slop
     const affine *back =
         s->kind < FORM_COUNT ? &s->a.quadric.object_from_world : &s->a.flat.object_from_world;
     const vec3 x = vec3_abs(affine_column(s->map, 0)), y = vec3_abs(affine_column(s->map, 1)),
-               z = vec3_abs(affine_column(s->map, 2)), width = vec3_sub(s->extent.max, s->extent.min);
+               z = vec3_abs(affine_column(s->map, 2));
+    const vec3 width = s->kind == PLANE ? (vec3){0, 0, 0} : vec3_sub(s->extent.max, s->extent.min);
     const vec3 far =
         vec3_add(vec3_abs(p), vec3_madd(vec3_madd(vec3_scale(x, width.x), width.y, y), width.z, z));
     const vec3 size = affine_magnitude(back, far), at = affine_point(back, p);
@@ -496,10 +497,10 @@ int main(void) {
     if (given) seed = strtoull(given, NULL, 10);
     print_message("SHAPE_SEED=%llu\n", (unsigned long long)seed);
     for (int kind = 0; kind < SUBJECT_COUNT; kind++) {
-        const bool convex = kind < CONVEX_FORMS || kind >= SPHERE;
+        const bool convex = kind < CONVEX_FORMS || (kind >= SPHERE && kind != PLANE); /* and has an end */
         const bool rimmed = kind == CYLINDER || kind == CONE || kind == FRUSTUM || kind == HYPERBOLOID;
-        const bool round =
-            kind < FORM_COUNT ? kind != CUBE && kind != TILTED && kind != SADDLE : kind != SQUARE;
+        const bool round = kind < FORM_COUNT ? kind != CUBE && kind != TILTED && kind != SADDLE
+                                             : kind != SQUARE && kind != PLANE;
         kinds[kind] = kind;
         add_test("points, normals and errors", check_surfaces, kind);
         if (convex) add_test("rays that leave", check_offsets, kind);
