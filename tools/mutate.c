@@ -264,7 +264,7 @@ static void swap_arguments(int open) {
     }
 }
 
-/* Where the arguments of a sum, a product, or the larger of two change places, nothing else does. */
+/* The arguments of a sum, a product or the larger of two would change places for nothing. */
 static void change_word(int i) {
     static const char *const unwrapped[] = {"sqrt",     "fabs",           "floor",    "vec3_neg",
                                             "vec3_abs", "vec3_normalize", "isfinite", NULL};
