@@ -353,7 +353,7 @@ static double drift(const struct slab *slabs, int count, double z, double consta
 static double index_at(const struct slab *slabs, int count, double z) {
     int inner = -1;
     for (int i = 0; i < count; i++)
-        if (slabs[i].bottom < z && z < slabs[i].top && (inner < 0 || slabs[i].bottom > slabs[inner].bottom))
+        if (slabs[i].bottom < z && z < slabs[i].top && (inner < 0 || slabs[i].bottom >= slabs[inner].bottom))
             inner = i;
     return inner < 0 ? 1.0 : slabs[inner].index;
 }
