@@ -462,21 +462,55 @@ static box3 add_ring(box3 b, const struct subject *s, double z) {
     return b;
 }
 
+/* A box of the shape's own points in the world. */
+static box3 reached_by(const struct subject *s) {
+    box3 reached = BOX3_EMPTY;
+    if (s->kind == CUBE || s->kind == SQUARE) {
+        for (int i = 0; i < 8; i++) {
+            const vec3 corner = {i & 1 ? 0.5 : -0.5, i & 2 ? 0.5 : -0.5,
+                                 s->kind == SQUARE ? 0.0
+                                 : i & 4           ? 0.5
+                                                   : -0.5};
+            reached = box3_add_point(reached, affine_point(&s->map, corner));
+        }
+        return reached;
+    }
+    for (int k = 0; k <= 200; k++)
+        reached = add_ring(reached, s, s->extent.min.z + (s->extent.max.z - s->extent.min.z) * k / 200);
+    return reached;
+}
+
 static void check_bounds_tight(void **state) {
     const int kind = *(int *)*state;
     begin(kind);
     for (int i = 0; i < 100; i++) {
         struct subject s;
         random_subject(&s, kind, false);
-        box3 reached = BOX3_EMPTY;
-        for (int k = 0; k <= 200; k++)
-            reached = add_ring(reached, &s, s.extent.min.z + (s.extent.max.z - s.extent.min.z) * k / 200);
+        const box3 reached = reached_by(&s);
         const box3 bounds = shape_bounds(&s.a.p, s.a.ref);
         const vec3 have = vec3_sub(bounds.max, bounds.min), need = vec3_sub(reached.max, reached.min);
         const double slack = 1e-8 * (s.length + vec3_max_abs(bounds.max));
         if (!(have.x <= 1.01 * need.x + slack && have.y <= 1.01 * need.y + slack &&
               have.z <= 1.01 * need.z + slack))
             fail_msg("bounds %g %g %g, needed %g %g %g", have.x, have.y, have.z, need.x, need.y, need.z);
+    }
+}
+
+/* How far it reaches along any direction: as its points do, seen by a map that brings that direction to x. */
+static void check_support(void **state) {
+    const int kind = *(int *)*state;
+    begin(kind);
+    for (int i = 0; i < 100; i++) {
+        struct subject s;
+        random_subject(&s, kind, false);
+        const vec3 d = vec3_scale(random_direction(&s), power_of_ten(-2, 2));
+        const double got = shape_support(&s.a.p, s.a.ref, d);
+        const double slack = 1e-8 * vec3_length(d) * (s.length + vec3_length(affine_column(s.map, 3)));
+        s.map = affine_compose((affine){{{d.x, d.y, d.z, 0}, {0}, {0}}}, s.map);
+        const box3 reached = reached_by(&s);
+        const double least = reached.max.x, most = least + 0.005 * (reached.max.x - reached.min.x);
+        if (!(got >= least - slack && got <= most + slack))
+            fail_msg("reaches %g, not %g to %g", got, least, most);
     }
 }
 
@@ -508,7 +542,9 @@ int main(void) {
         add_test("lists of crossings", check_lists, kind);
         if (rimmed) add_test("no leak at the rim", check_rims, kind);
         add_test("bounds hold", check_bounds_hold, kind);
-        if (round) add_test("bounds are tight", check_bounds_tight, kind);
+        if (!round && kind != CUBE && kind != SQUARE) continue;
+        add_test("bounds are tight", check_bounds_tight, kind);
+        add_test("its reach", check_support, kind);
     }
     add_test("crossings against a walk, random quadrics", check_any_quadric, -1);
     add_test("no crack between squares", check_crack, -1);
