@@ -336,6 +336,8 @@ static void check_apex(void **state) {
         assert_near(vec3_length(got.normal), 1, 1e-15, "length of the normal");
         assert_vec3_near(got.point, (vec3){0, 0, 0}, 2e-9, "point");
         assert_true(got.error > 0 && got.error < 1e-7);
+        if (i == 2)
+            assert_true(vec3_dot(got.normal, rays[i].dir) < 0); /* at the apex itself it faces the ray */
     }
 }
 
