@@ -224,7 +224,31 @@ static int operand_end(int sign) {
     return sign;
 }
 
+static bool same_tokens(int a, int b, int count) {
+    for (int i = 0; i < count; i++)
+        if (tokens[a + i].length != tokens[b + i].length ||
+            strncmp(tokens[a + i].at, tokens[b + i].at, (size_t)tokens[a + i].length))
+            return false;
+    return true;
+}
+
+/* `a < b ? a : b` and its like, which does not ask whether the two are equal. */
+static bool is_choice(int sign) {
+    const int question = operand_end(sign) + 1, right = question - sign - 1;
+    if (rank(sign) != 3 || !is(question, "?")) return false;
+    int colon = question + 1;
+    while (!is(colon, ":") && !is(colon, ";")) colon++;
+    int end = colon + 1;
+    while (!is(end, ",") && !is(end, ";") && !is(end, ")")) end++;
+    const int first = colon - question - 1, second = end - colon - 1;
+    if (first <= sign && second == right && same_tokens(colon + 1, sign + 1, right))
+        return same_tokens(question + 1, sign - first, first);
+    return second <= sign && first == right && same_tokens(question + 1, sign + 1, right) &&
+           same_tokens(colon + 1, sign - second, second);
+}
+
 static void change_sign(int i) {
+    if (is_choice(i)) return;
     const bool binary = ends_operand(i - 1);
     EXCHANGE(i, signs);
     if (binary) EXCHANGE(i, binary_signs);
@@ -264,16 +288,19 @@ static void swap_arguments(int open) {
     }
 }
 
+/* The arguments of a sum, a product or the larger of two would change places for nothing. */
 static void change_word(int i) {
     static const char *const unwrapped[] = {"sqrt",     "fabs",           "floor",    "vec3_neg",
                                             "vec3_abs", "vec3_normalize", "isfinite", NULL};
+    static const char *const commutative[] = {"vec3_add",   "vec3_mul", "vec3_dot", "box3_upper",
+                                              "box3_lower", "larger",   "smaller",  NULL};
     EXCHANGE(i, words);
     if (is(i - 1, ".") || is(i - 1, "->")) EXCHANGE(i, members);
     if (!is(i + 1, "(")) return;
     if (is_one_of(i, unwrapped)) add("unwrap", i, i, "", 0);
     if (is(i, "if") || is(i, "while"))
         add_copy("negate", i + 1, tokens[i + 1].match, "(!", i + 1, tokens[i + 1].match, ")");
-    else if (!is_one_of(i, keywords))
+    else if (!is_one_of(i, keywords) && !is_one_of(i, commutative))
         swap_arguments(i + 1);
 }
 

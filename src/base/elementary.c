@@ -32,8 +32,8 @@ static size_t powers_by_4(size_t count, const float *base, const float *exponent
 }
 
 void elementary_powf(size_t count, const float *base, const float *exponent, float *out) {
-    const size_t done = __builtin_cpu_supports("avx") ? powers_by_8(count, base, exponent, out)
-                                                      : powers_by_4(count, base, exponent, out);
+    size_t done = __builtin_cpu_supports("avx") ? powers_by_8(count, base, exponent, out) : 0;
+    done += powers_by_4(count - done, base + done, exponent + done, out + done);
     powers_by_1(count - done, base + done, exponent + done, out + done);
 }
 #else

@@ -47,7 +47,9 @@ static struct range range_product(double factor, double min_a, double max_a, dou
     return r;
 }
 
-/* The values of Q in the box; wider by the rounding, and where x y, y z or z x have a part in it. */
+/* The values of Q in the box; wider by the rounding, and where x y, y z or z x have a part in it. Rounding decides where
+ * the parts of an end cancel: as much of them is above 0 then as below, so that the upper ends tell how large they are,
+ * and axis_size where one has no upper end. */
 static struct range form_range(const struct quadric_form *f, box3 box) {
     const vec3 a = box.min, b = box.max;
     const struct range parts[] = {
@@ -64,7 +66,6 @@ static struct range form_range(const struct quadric_form *f, box3 box) {
                   axis_size(f->zz, f->z, a.z, b.z);
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
         sum = range_add(sum, parts[i]);
-        if (fabs(parts[i].min) < INFINITY) most = box3_upper(most, fabs(parts[i].min));
         if (fabs(parts[i].max) < INFINITY) most = box3_upper(most, fabs(parts[i].max));
     }
     return (struct range){sum.min - slack * most, sum.max + slack * most};

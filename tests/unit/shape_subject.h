@@ -5,10 +5,10 @@
 
 #include "shape_forms.h"
 
-enum { SPHERE = FORM_COUNT, SQUARE, DISC, SUBJECT_COUNT };
+enum { SPHERE = FORM_COUNT, SQUARE, DISC, PLANE, SUBJECT_COUNT };
 
 static const char *subject_name(int kind) {
-    static const char *const others[] = {"sphere", "square", "disc"};
+    static const char *const others[] = {"sphere", "square", "disc", "plane"};
     return kind < FORM_COUNT ? form_names[kind] : others[kind - FORM_COUNT];
 }
 
@@ -102,7 +102,7 @@ static void make_subject(struct subject *s, int kind, const struct quadric_form 
     } else if (form) {
         alone_quadric(&s->a, form, map);
     } else {
-        alone_flat(&s->a, kind == DISC ? FLAT_DISC : FLAT_SQUARE, map);
+        alone_flat(&s->a, kind == DISC ? FLAT_DISC : kind == PLANE ? FLAT_PLANE : FLAT_SQUARE, map);
     }
     const box3 b = s->extent;
     s->length = 0;

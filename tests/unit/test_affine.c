@@ -79,7 +79,7 @@ static void random_rotations(void **state) {
         double factor = 0;
         assert_vec3_near(affine_direction(&map, v), turn_long(axis, angle, v), 2e-15, "rotated vector");
         assert_true(affine_is_similarity(map, &factor));
-        assert_near(factor, 1, 1e-15, "factor");
+        assert_near(factor, 1, 3e-15, "factor");
     }
 }
 
@@ -246,6 +246,29 @@ static void nearly_flat_is_not_flat(void **state) {
     }
 }
 
+/* Just within and just beyond what is said: of sizes, of places, and of determinants. */
+static void limits_are_where_they_are(void **state) {
+    (void)state;
+    affine inverse;
+    for (int i = 0; i < 3; i++)
+        for (int beyond = 0; beyond < 2; beyond++) {
+            const double more = beyond ? 1.01 : 0.99, less = beyond ? 0.99 : 1.01;
+            const double columns[] = {less * 1e-100, more * 1e100};
+            for (int k = 0; k < 2; k++) {
+                affine sized = AFFINE_IDENTITY;
+                sized.m[i][i] = columns[k];
+                assert_int_equal(affine_invert(sized, &inverse), !beyond);
+            }
+            for (int side = -1; side < 2; side += 2) {
+                affine placed = AFFINE_IDENTITY, sheared = AFFINE_IDENTITY;
+                placed.m[i][3] = side * more * 1e100;
+                assert_int_equal(affine_invert(placed, &inverse), !beyond);
+                sheared.m[i][(i + 1) % 3] = side * more * 1e12;
+                assert_int_equal(affine_invert(sheared, &inverse), !beyond);
+            }
+        }
+}
+
 /* ---- Similarities ---- */
 
 static struct similar {
@@ -261,6 +284,9 @@ static struct similar {
     {"similar: huge", {1e90, 1e90, 1e90}, 0, 1e90},
     {"not similar: stretched", {1, 1, 1.0001}, 0, 0},
     {"not similar: stretched a little", {1, 1 + 1e-11, 1}, 0, 0},
+    {"similar: to rounding", {1, 1 + 0.9e-12, 1}, 0.9e-12, 1},
+    {"not similar: stretched no more than that", {1, 1, 1 - 1.1e-12}, 0, 0},
+    {"not similar: sheared no more", {1, 1, 1}, 1.1e-12, 0},
     {"not similar: sheared", {1, 1, 1}, 1e-10, 0},
     {"not similar: null", {0, 0, 0}, 0, 0},
     {"not similar: NaN", {NAN, NAN, NAN}, 0, 0},
@@ -310,6 +336,7 @@ int main(void) {
         cmocka_unit_test(random_inverses),
         cmocka_unit_test(extreme_sizes_have_inverses),
         cmocka_unit_test(nearly_flat_is_not_flat),
+        cmocka_unit_test(limits_are_where_they_are),
         cmocka_unit_test(finite_means_all_twelve),
     };
     return cmocka_run_group_tests_name("rows", tests, NULL, NULL) +

@@ -210,6 +210,14 @@ static void powers_of_many(void **state) {
         const double want = elementary_pow((double)base[i], (double)exponent[i]);
         assert_near((double)one, want, 1.2e-7 * want, "power");
     }
+    for (size_t count = 0; count < 40;
+         count++) { /* however many are left over by those for several; beyond, nothing */
+        float few[41];
+        for (int i = 0; i < 41; i++) few[i] = -7;
+        elementary_powf(count, base, exponent, few);
+        assert_memory_equal(few, many, count * sizeof *few);
+        for (size_t i = count; i < 41; i++) assert_true(few[i] == -7);
+    }
 }
 
 int main(void) {

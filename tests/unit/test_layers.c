@@ -135,6 +135,60 @@ static void test_shadow(void **state) {
     monge_layers_free(layers);
 }
 
+/* A light reaches a pixel where the picture by that light alone is not black. */
+static void test_shadow_against_pictures(void **state) {
+    (void)state;
+    enum { WIDTH = 30, HEIGHT = 20, LAMPS = 4 };
+    struct random r = random_begin();
+    int lit = 0, dark = 0;
+    for (int round = 0; round < 6; round++) {
+        char shapes[3000] = "", lamps[LAMPS][200], text[4500];
+        size_t used = 0;
+        const vec3 at = random_vec3(&r, -40, 40);
+        for (int i = 0; i < 12; i++) {
+            const vec3 c = vec3_add(at, random_vec3(&r, -4, 4));
+            used += (size_t)snprintf(shapes + used, sizeof shapes - used,
+                                     "  - {sphere: {center: [%g, %g, %g], radius: %g}, material: %s}\n", c.x, c.y,
+                                     c.z, random_between(&r, 0.4, 1.5), i % 4 ? "m" : "glass");
+        }
+        for (int i = 0; i < LAMPS; i++) {
+            const vec3 c = vec3_add(at, random_vec3(&r, -12, 12));
+            snprintf(lamps[i], sizeof *lamps, "  - point: {at: [%g, %g, %g], color: [1e6, 1e6, 1e6]}\n", c.x, c.y, c.z);
+        }
+        for (int i = -1; i < LAMPS; i++) {
+            static uint64_t lights[WIDTH * HEIGHT];
+            snprintf(text, sizeof text,
+                     "image: {size: [%d, %d], samples: 1, background: black}\nrender: {depth: 1}\n"
+                     "camera: {look_at: [%g, %g, %g]}\n"
+                     "materials: {m: {diffuse: white, specular: black}, glass: {extends: m, refraction: white}}\n"
+                     "lights:\n%s%s%s%s\nscene:\n%s  - plane: {point: [0, %g, 0], normal: [0, 1, 0]}\n    material: m\n",
+                     WIDTH, HEIGHT, at.x, at.y, at.z, lamps[i < 0 ? 0 : i], i < 0 ? lamps[1] : "", i < 0 ? lamps[2] : "",
+                     i < 0 ? lamps[3] : "", shapes, at.y - 4);
+            if (i < 0) {
+                struct monge_layers *layers = render_good(text, WIDTH, HEIGHT);
+                memcpy(lights, monge_layers_lights(layers), sizeof lights);
+                monge_layers_free(layers);
+                continue;
+            }
+            struct monge_diagnostics *diag = monge_diagnostics_new();
+            struct monge_scene *scene = monge_load_memory("scene.yaml", text, strlen(text), NULL, diag);
+            assert_non_null(scene);
+            const struct monge_settings settings = monge_scene_settings(scene);
+            struct monge_film *film = monge_render(scene, &settings, NULL, NULL, NULL);
+            for (size_t k = 0; k < WIDTH * HEIGHT; k++) {
+                const bool reached = monge_film_pixels(film)[3 * k] > 0;
+                assert_int_equal(lights[k] >> i & 1, reached);
+                lit += reached;
+                dark += !reached;
+            }
+            monge_film_free(film);
+            monge_scene_free(scene);
+            monge_diagnostics_free(diag);
+        }
+    }
+    assert_true(lit > 3000 && dark > 3000);
+}
+
 /* ---- Objects ---- */
 
 struct object_row {
@@ -459,6 +513,7 @@ int main(void) {
         cmocka_unit_test(test_orthographic),
         cmocka_unit_test(test_planar_depth),
         cmocka_unit_test(test_shadow),
+        cmocka_unit_test(test_shadow_against_pictures),
         cmocka_unit_test(test_regions),
         cmocka_unit_test(test_long_loop),
         cmocka_unit_test(test_tables),

@@ -69,6 +69,35 @@ static void bodies_of_one_place_by_their_number(void **state) {
     unload(&w.loaded);
 }
 
+/* Whatever their kind, and so in whichever order the tree has them. */
+static void bodies_that_end_together_by_their_number(void **state) {
+    (void)state;
+    static const char *const kinds[] = {"sphere: {}", "quadric: {xx: 1, yy: 1, zz: 1, constant: -1}",
+                                        "box: {min: [-1, -1, -1], max: [1, 1, 1]}",
+                                        "plane: {point: [0, 0, 1]}",
+                                        "cylinder: {from: [0, 0, -1], to: [0, 0, 1]}"};
+    enum { BODIES = COUNT(kinds) };
+    for (int order = 0; order < 120; order++) {
+        int turn[BODIES] = {0, 1, 2, 3, 4};
+        char text[1000] = "scene:\n";
+        double index[BODIES];
+        for (int i = 0, left = order; i < BODIES; left /= BODIES - i, i++) {
+            const int other = i + left % (BODIES - i), kept = turn[i];
+            turn[i] = turn[other];
+            turn[other] = kept;
+        }
+        for (int i = 0; i < BODIES; i++) {
+            index[i] = 1.1 + 0.1 * turn[i];
+            snprintf(text + strlen(text), sizeof text - strlen(text), "  - {%s, material: {index: %.1f}}\n",
+                     kinds[turn[i]], index[i]);
+        }
+        struct world w;
+        world_begin(&w, text);
+        assert_around(&w, up, BODIES, index);
+        unload(&w.loaded);
+    }
+}
+
 /* Of more than fit the outermost are forgotten. */
 static void the_innermost_of_many(void **state) {
     (void)state;
@@ -130,6 +159,7 @@ int main(void) {
         cmocka_unit_test(nothing_around),
         cmocka_unit_test(by_where_the_ray_leaves),
         cmocka_unit_test(bodies_of_one_place_by_their_number),
+        cmocka_unit_test(bodies_that_end_together_by_their_number),
         cmocka_unit_test(the_innermost_of_many),
         cmocka_unit_test(in_and_out_again),
     };

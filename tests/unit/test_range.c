@@ -60,6 +60,10 @@ static struct row {
     {"(x + y)^2 = -1e-15 is not told from 0",
      {.xx = 1e9, .yy = 1e9, .xy = 2e9, .constant = 1e-6, .clip = EVERYWHERE},
      false},
+    {"(x + y)^2 = -1e-12 is not, either",
+     {.xx = 1, .yy = 1, .xy = 2, .constant = 1e-12, .clip = EVERYWHERE},
+     false},
+    {"(x + y)^2 = -1.01e-12 is", {.xx = 1, .yy = 1, .xy = 2, .constant = 1.01e-12, .clip = EVERYWHERE}, true},
     {"x^2 = -1, of any size: small", {.xx = 1e-9, .constant = 1e-9, .clip = EVERYWHERE}, true},
     {"x^2 = -1, of any size: large", {.xx = 1e9, .constant = 1e9, .clip = EVERYWHERE}, true},
     {"x y = -1 for x > 1", {.xy = 1, .constant = 1, .clip = {{1, -INFINITY, 0}, {9, INFINITY, 1}}}, false},
@@ -150,13 +154,113 @@ static void check_random(void **state) {
     assert_true(empty > 100 && held > 100);
 }
 
+/* ---- Where rounding decides ---- */
+
+/* The terms of the form at the point, in long double; returns the sum of their magnitudes. */
+static long double terms_at(const struct quadric_form *f, vec3 at, long double *sum) {
+    const long double x = at.x, y = at.y, z = at.z;
+    const long double terms[] = {f->xx * x * x, f->yy * y * y, f->zz * z * z, f->xy * x * y, f->yz * y * z,
+                                 f->zx * z * x, f->x * x,      f->y * y,      f->z * z,      f->constant};
+    long double size = 0;
+    *sum = 0;
+    for (size_t i = 0; i < COUNT(terms); i++) *sum += terms[i], size += fabsl(terms[i]);
+    return size;
+}
+
+/* Boxes that are a point, of which the range is one value; that one is next to 0, as two large terms cancel. What is said
+ * is true all the same; and it is said where the value is farther from 0 than slack allows. */
+static void check_cancelling(void **state) {
+    (void)state;
+    struct random r = random_begin();
+    int in = 0, out = 0, told = 0;
+    for (int i = 0; i < 100000; i++) {
+        const vec3 at = random_vec3(&r, -3, 3);
+        struct quadric_form f = {.clip = {at, at}};
+        double *const terms[] = {&f.xx, &f.yy, &f.zz, &f.xy, &f.yz, &f.zx, &f.x, &f.y, &f.z, &f.constant};
+        const double basis[] = {at.x * at.x, at.y * at.y, at.z * at.z, at.x * at.y, at.y * at.z,
+                                at.z * at.x, at.x,        at.y,        at.z,        1};
+        for (size_t k = 0; k < COUNT(terms); k++)
+            *terms[k] =
+                random_below(&r, 2) ? random_between(&r, -1, 1) * pow(10, random_between(&r, -9, 0)) : 0;
+        const unsigned last = random_below(&r, COUNT(terms));
+        long double value;
+        *terms[last] = 0;
+        terms_at(&f, at, &value);
+        *terms[last] = (double)(-value / (long double)basis[last]);
+        const double nudge = random_below(&r, 2) ? random_between(&r, -1e-10, 1e-10) : 0;
+        *terms[last] *= 1 + nudge;
+        const long double size = terms_at(&f, at, &value);
+        const bool open_empty = (f.open = true, form_is_empty(&f));
+        f.open = false;
+        const bool empty = form_is_empty(&f);
+        f.clip = EVERYWHERE;
+        const bool holds = form_holds_box(&f, (box3){at, at});
+        if (holds && !(value < 0)) fail_msg("held at %Lg of %Lg", value, size);
+        if (empty && !(value > 0)) fail_msg("empty at %Lg of %Lg", value, size);
+        if (open_empty && value == 0) fail_msg("open and empty at 0 of %Lg", size);
+        if (value < -2e-11L * size) assert_true(holds && open_empty);
+        if (value > 2e-11L * size) assert_true(empty && open_empty);
+        in += value < 0;
+        out += value > 0;
+        told += holds || empty;
+    }
+    printf("# %d in, %d out, %d told\n", in, out, told);
+    assert_true(in > 20000 && out > 20000 && told > 10000);
+}
+
+/* Without x y, y z and z x, and in boxes without an end on the sides where the form grows: its least value is at the
+ * corner. It is next to 0 there, as large terms cancel; what is said to be empty is. */
+static void check_cancelling_at_a_corner(void **state) {
+    (void)state;
+    struct random r = random_begin();
+    int in = 0, out = 0, told = 0;
+    for (int i = 0; i < 50000; i++) {
+        const vec3 at = random_vec3(&r, -3, 3);
+        struct quadric_form f = {.open = random_below(&r, 2)};
+        double *const square[] = {&f.xx, &f.yy, &f.zz}, *const linear[] = {&f.x, &f.y, &f.z};
+        const double corner[] = {at.x, at.y, at.z};
+        for (int k = 0; k < 3; k++) {
+            if (random_below(&r, 3))
+                *square[k] = random_between(&r, 0, 1) * pow(10, random_between(&r, -9, 0));
+            if (random_below(&r, 3))
+                *linear[k] = random_between(&r, -1, 1) * pow(10, random_between(&r, -9, 0));
+        }
+        long double value;
+        const unsigned last = random_below(&r, 4);
+        double *const term = last < 3 ? linear[last] : &f.constant;
+        *term = 0;
+        terms_at(&f, at, &value);
+        *term = (double)(-value / (long double)(last < 3 ? corner[last] : 1));
+        if (random_below(&r, 2)) *term *= 1 + random_between(&r, -1e-10, 1e-10);
+        double min[3], max[3];
+        for (int k = 0; k < 3; k++) {
+            const bool falls = 2 * *square[k] * corner[k] + *linear[k] < 0;
+            min[k] = falls ? -INFINITY : corner[k];
+            max[k] = falls ? corner[k] : INFINITY;
+        }
+        f.clip = (box3){{min[0], min[1], min[2]}, {max[0], max[1], max[2]}};
+        const long double size = terms_at(&f, at, &value);
+        const bool empty = form_is_empty(&f);
+        if (empty && !(value > 0)) fail_msg("empty at %Lg of %Lg", value, size);
+        if (value > 2e-11L * size) assert_true(empty);
+        in += value < 0;
+        out += value > 0;
+        told += empty;
+    }
+    printf("# %d in, %d out, %d told\n", in, out, told);
+    assert_true(in > 10000 && out > 10000 && told > 1000);
+}
+
 int main(void) {
-    struct CMUnitTest tests[COUNT(rows) + COUNT(boxes) + 1];
+    struct CMUnitTest tests[COUNT(rows) + COUNT(boxes) + 3];
     size_t n = 0;
     for (size_t i = 0; i < COUNT(rows); i++)
         tests[n++] = (struct CMUnitTest){rows[i].name, check_row, NULL, NULL, &rows[i]};
     for (size_t i = 0; i < COUNT(boxes); i++)
         tests[n++] = (struct CMUnitTest){boxes[i].name, check_held, NULL, NULL, &boxes[i]};
+    tests[n++] = (struct CMUnitTest){"terms that cancel", check_cancelling, NULL, NULL, NULL};
+    tests[n++] =
+        (struct CMUnitTest){"terms that cancel at a corner", check_cancelling_at_a_corner, NULL, NULL, NULL};
     tests[n++] = (struct CMUnitTest){"random forms", check_random, NULL, NULL, NULL};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

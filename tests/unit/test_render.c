@@ -203,6 +203,43 @@ static void test_scale_of_the_world(void **state) {
     free(text);
 }
 
+/* ---- Samples ---- */
+
+static double reversed_bits(unsigned i) {
+    double sum = 0;
+    for (int bit = 0; bit < 20; bit++) sum += (i >> bit & 1) * pow(0.5, bit + 1);
+    return sum;
+}
+
+/* A pixel of Hammersley's points by how many of them lie left of and above a corner, for random corners: i of n is in the
+ * middle of the i-th column, and of one of as many rows as the next power of two. */
+static void test_samples(void **state) {
+    (void)state;
+    struct random r = random_begin();
+    for (int trial = 0; trial < 400; trial++) {
+        const unsigned n = 1 + random_below(&r, trial % 2 ? 70 : 9);
+        const double x = random_between(&r, 0, 3), y = random_between(&r, 0, 2);
+        char text[400];
+        snprintf(text, sizeof text,
+                 "image: {size: [3, 2], samples: %u, background: black}\nrender: {shading: signature}\n"
+                 "camera: {projection: orthographic, height: 2, eye: [1.5, -1, 5], direction: [0, 0, -1]}\n"
+                 "scene: [{square: {center: [%.17g, %.17g, 0], size: 100}, material: {diffuse: white}}]\n",
+                 n, x - 50, 50 - y);
+        struct monge_scene *scene = load(text);
+        struct monge_film *film = render(scene, NULL, 1);
+        double rows = 1;
+        while (rows < n) rows *= 2;
+        for (unsigned i = 0; i < 6; i++) {
+            unsigned count = 0;
+            for (unsigned k = 0; k < n; k++)
+                count += i % 3 + (k + 0.5) / n < x && i / 3 + reversed_bits(k) + 0.5 / rows < y;
+            assert_near((double)monge_film_pixels(film)[3 * i], (double)count / n, 1e-6, "samples");
+        }
+        monge_film_free(film);
+        monge_scene_free(scene);
+    }
+}
+
 /* ---- What is told of a rendering ---- */
 
 #define FACING_A_PLANE                                                                                       \
@@ -467,6 +504,7 @@ int main(void) {
         cmocka_unit_test(test_threads),
         cmocka_unit_test(test_regions),
         cmocka_unit_test(test_tiles),
+        cmocka_unit_test(test_samples),
         cmocka_unit_test(test_eye_in_glass),
         cmocka_unit_test(test_scale_of_the_world),
         cmocka_unit_test(test_perspective),

@@ -190,6 +190,48 @@ static void check_crossings(void **state) {
     }
 }
 
+/* ---- Where parts meet ---- */
+
+/* The crossings of a ray and of the ray that comes the other way are the same: an edge belongs to the same part from
+ * either side. All numbers are exact, so that the parts do meet in one t. */
+static int check_both_ways(int shape, vec3 edge, vec3 d) {
+    struct alone a;
+    struct crossing there[SHAPE_MAX_CROSSINGS], back[SHAPE_MAX_CROSSINGS];
+    make(&a, shape);
+    const int count = shape_crossings(&a.p, a.ref, (ray){vec3_madd(edge, -4, d), d}, there);
+    assert_int_equal(shape_crossings(&a.p, a.ref, (ray){vec3_madd(edge, 4, d), vec3_neg(d)}, back), count);
+    int met = 0;
+    for (int i = 0; i < count; i++) {
+        const struct crossing *other = &back[count - 1 - i];
+        assert_true(there[i].t == 8 - other->t);
+        assert_int_equal(there[i].part, other->part);
+        met += there[i].t == 4;
+    }
+    return met;
+}
+
+static void check_edges(void **state) {
+    (void)state;
+    static const double steps[] = {-2, -1, -0.5, 0, 0.5, 1, 2};
+    int met = 0;
+    for (int i = 0; i < 27; i++) { /* corners, edges, faces */
+        const vec3 edge = {0.5 * (i % 3 - 1), 0.5 * (i / 3 % 3 - 1), 0.5 * (i / 9 - 1)};
+        for (int k = 1; k < 7 * 7 * 7; k++)
+            met += check_both_ways(CUBE, edge, (vec3){steps[k % 7], steps[k / 7 % 7], steps[k / 49]});
+    }
+    assert_true(met > 1000);
+    met = 0;
+    for (int i = 0; i < 16; i++) {
+        const double out = i & 1 ? 1 : -1, z = i & 2 ? 1 : -1, in = i & 4 ? out : -out;
+        const vec3 way = {in, 0, i & 8 ? z : -z};
+        met += check_both_ways(CYLINDER, (vec3){out, 0, 0.5 * z}, way);
+        met += check_both_ways(CYLINDER, (vec3){0, out, 0.5 * z}, (vec3){0, way.x, way.z});
+        met += check_both_ways(PARABOLOID, (vec3){out, 0, 1}, way);
+        met += check_both_ways(TUBE, (vec3){0, out, 0.5 * z}, (vec3){0, way.x, way.z});
+    }
+    assert_true(met > 20);
+}
+
 static struct first_row {
     const char *name;
     int shape;
@@ -294,6 +336,8 @@ static void check_apex(void **state) {
         assert_near(vec3_length(got.normal), 1, 1e-15, "length of the normal");
         assert_vec3_near(got.point, (vec3){0, 0, 0}, 2e-9, "point");
         assert_true(got.error > 0 && got.error < 1e-7);
+        if (i == 2)
+            assert_true(vec3_dot(got.normal, rays[i].dir) < 0); /* at the apex itself it faces the ray */
     }
 }
 
@@ -435,9 +479,30 @@ static void check_bounds_of_scaled_hits(void **state) {
     }
 }
 
+/* An instance is no shape: what it places is met elsewhere. */
+static void check_instance(void **state) {
+    (void)state;
+    struct instance placed = {AFFINE_IDENTITY, AFFINE_IDENTITY, NULL, 0};
+    const struct primitives p = {.instances = &placed, .instance_count = 1};
+    const primitive_ref ref = primitive_ref_make(PRIMITIVE_INSTANCE, 0);
+    const ray r = {{0, 0, 3}, {0, 0, -2}};
+    struct crossing c[SHAPE_MAX_CROSSINGS], first = {7, SHAPE_SIDE};
+    assert_int_equal(shape_crossings(&p, ref, r, c), 0);
+    assert_false(shape_first_crossing(&p, ref, r, -INFINITY, INFINITY, &first));
+    assert_true(first.t == 7);
+    assert_false(shape_is_solid(&p, ref));
+    assert_false(shape_contains(&p, ref, (vec3){0, 0, 0}));
+    assert_true(shape_support(&p, ref, (vec3){0, 1, 0}) == INFINITY);
+    assert_memory_equal(&(box3[]){shape_bounds(&p, ref)}, &(box3[]){BOX3_ALL}, sizeof(box3));
+    const struct surface at = shape_surface(&p, ref, r, (struct crossing){1, SHAPE_SIDE});
+    assert_vec3_near(at.point, (vec3){0, 0, 1}, 0, "point");
+    assert_vec3_near(at.normal, (vec3){0, 0, 1}, 0, "normal");
+    assert_true(at.error == 0);
+}
+
 int main(void) {
     struct CMUnitTest tests[COUNT(crossing_rows) + COUNT(first_rows) + COUNT(surface_rows) +
-                            COUNT(contains_rows) + COUNT(bounds_rows) + 4];
+                            COUNT(contains_rows) + COUNT(bounds_rows) + 6];
     size_t n = 0;
     for (size_t i = 0; i < COUNT(crossing_rows); i++)
         tests[n++] =
@@ -446,6 +511,8 @@ int main(void) {
         tests[n++] = (struct CMUnitTest){first_rows[i].name, check_first, NULL, NULL, &first_rows[i]};
     for (size_t i = 0; i < COUNT(surface_rows); i++)
         tests[n++] = (struct CMUnitTest){surface_rows[i].name, check_surface, NULL, NULL, &surface_rows[i]};
+    tests[n++] = (struct CMUnitTest){"edges, from either side", check_edges, NULL, NULL, NULL};
+    tests[n++] = (struct CMUnitTest){"an instance", check_instance, NULL, NULL, NULL};
     tests[n++] = (struct CMUnitTest){"the apex of a cone has a normal", check_apex, NULL, NULL, NULL};
     tests[n++] = (struct CMUnitTest){"errors without infinity", check_endless, NULL, NULL, NULL};
     for (size_t i = 0; i < COUNT(contains_rows); i++)

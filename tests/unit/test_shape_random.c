@@ -20,6 +20,52 @@ static double normal_rounding(const struct subject *s, vec3 p, double error, dou
     return 1e-10 + 10 * (map / step + error / (step * step)) / slope;
 }
 
+/* The sum of |factor| |number| over all numbers that the value of the part is computed from, where the ray leaves to the
+ * end of the shape: one unit of rounding in each moves the surface by so much, as far as that is linear. */
+static double rounding_at(const struct subject *s, int part, vec3 p, double slope) {
+    if (s->kind == SPHERE) {
+        const vec3 out = vec3_normalize(vec3_sub(p, s->a.sphere.center));
+        return vec3_dot(vec3_abs(out), vec3_abs(p)) + s->a.sphere.radius;
+    }
+    const affine *back =
+        s->kind < FORM_COUNT ? &s->a.quadric.object_from_world : &s->a.flat.object_from_world;
+    const vec3 x = vec3_abs(affine_column(s->map, 0)), y = vec3_abs(affine_column(s->map, 1)),
+               z = vec3_abs(affine_column(s->map, 2));
+    const vec3 width = s->kind == PLANE ? (vec3){0, 0, 0} : vec3_sub(s->extent.max, s->extent.min);
+    const vec3 far =
+        vec3_add(vec3_abs(p), vec3_madd(vec3_madd(vec3_scale(x, width.x), width.y, y), width.z, z));
+    const vec3 size = affine_magnitude(back, far), at = affine_point(back, p);
+    if (s->kind > SPHERE) return size.z / slope;
+    const struct quadric_form *f = s->a.quadric.form;
+    if (part != SHAPE_SIDE) {
+        const int axis = (part - 1) / 2;
+        return (axis == 0   ? size.x + fabs(at.x)
+                : axis == 1 ? size.y + fabs(at.y)
+                            : size.z + fabs(at.z)) /
+               slope;
+    }
+    double sum = 0;
+    const double o[] = {at.x, at.y, at.z}, by[] = {size.x, size.y, size.z};
+    const double m[3][3] = {
+        {f->xx, f->xy / 2, f->zx / 2}, {f->xy / 2, f->yy, f->yz / 2}, {f->zx / 2, f->yz / 2, f->zz}};
+    const double linear[] = {f->x, f->y, f->z};
+    for (int i = 0; i < 3; i++) {
+        double g = linear[i];
+        for (int j = 0; j < 3; j++) g += 2 * m[i][j] * o[j], sum += fabs(m[i][j] * o[i] * o[j]);
+        sum += fabs(g) * by[i] + fabs(linear[i] * o[i]);
+    }
+    return (sum + fabs(f->constant)) / slope;
+}
+
+/* Sixteen units are counted in each (ROUNDING), and little more than that. Where the surface is nearly singular it is all
+ * but linear: the error is some part of its size. */
+static void check_error(const struct subject *s, double error, double unit) {
+    const double least = s->kind == SQUARE ? 7.9 : 15.9; /* its extent is twice as wide as it is */
+    if (error > 1e-6 * step_of(s)) return;
+    if (!(error >= least * unit && error < 40 * unit + 1e-26 * s->length))
+        fail_msg("error of %g, %g units", error, error / unit);
+}
+
 static void check_one_surface(const struct subject *s, ray r, struct crossing c) {
     const struct surface got = shape_surface(&s->a.p, s->a.ref, r, c);
     const double step = step_of(s);
@@ -30,6 +76,7 @@ static void check_one_surface(const struct subject *s, ray r, struct crossing c)
         fail_msg("normal of length %.17g", vec3_length(got.normal));
     if (!(off <= got.error)) fail_msg("off the surface by %Lg, error %g", off, got.error);
     if (!(got.error < 1e-6 * (s->length + vec3_max_abs(got.point)))) fail_msg("error of %g", got.error);
+    check_error(s, got.error, 0x1p-52 * rounding_at(s, (int)c.part, got.point, slope));
     const vec3 drift = vec3_sub(got.point, ray_at(r, c.t));
     const double distance = s->length + vec3_max_abs(r.org) + vec3_max_abs(got.point);
     if (!(vec3_max_abs(drift) < 1e-9 * distance))
@@ -113,6 +160,15 @@ static int check_leaving(const struct subject *s, ray r, struct crossing c, int 
     return bad;
 }
 
+/* Moves the subject so that the ray meets it next to the origin: rounding is then that of its size alone. */
+static void bring_to_origin(struct subject *s, ray *r) {
+    struct crossing c[SHAPE_MAX_CROSSINGS];
+    if (!shape_crossings(&s->a.p, s->a.ref, *r, c)) return;
+    const vec3 back = vec3_neg(shape_surface(&s->a.p, s->a.ref, *r, c[0]).point);
+    make_subject(s, s->kind, form_of(s->kind), affine_compose(affine_translate(back), s->map));
+    r->org = vec3_add(r->org, back);
+}
+
 static void check_offsets(void **state) {
     const int kind = *(int *)*state;
     begin(kind);
@@ -120,7 +176,8 @@ static void check_offsets(void **state) {
     for (int i = 0; i < 50000; i++) {
         struct subject s;
         random_subject(&s, kind, true);
-        const ray r = random_ray(&s);
+        ray r = random_ray(&s);
+        if (chance(0.3)) bring_to_origin(&s, &r);
         struct crossing c[SHAPE_MAX_CROSSINGS];
         const int count = shape_crossings(&s.a.p, s.a.ref, r, c);
         for (int k = 0; k < count; k++) bad += check_leaving(&s, r, c[k], &tried);
@@ -405,21 +462,55 @@ static box3 add_ring(box3 b, const struct subject *s, double z) {
     return b;
 }
 
+/* A box of the shape's own points in the world. */
+static box3 reached_by(const struct subject *s) {
+    box3 reached = BOX3_EMPTY;
+    if (s->kind == CUBE || s->kind == SQUARE) {
+        for (int i = 0; i < 8; i++) {
+            const vec3 corner = {i & 1 ? 0.5 : -0.5, i & 2 ? 0.5 : -0.5,
+                                 s->kind == SQUARE ? 0.0
+                                 : i & 4           ? 0.5
+                                                   : -0.5};
+            reached = box3_add_point(reached, affine_point(&s->map, corner));
+        }
+        return reached;
+    }
+    for (int k = 0; k <= 200; k++)
+        reached = add_ring(reached, s, s->extent.min.z + (s->extent.max.z - s->extent.min.z) * k / 200);
+    return reached;
+}
+
 static void check_bounds_tight(void **state) {
     const int kind = *(int *)*state;
     begin(kind);
     for (int i = 0; i < 100; i++) {
         struct subject s;
         random_subject(&s, kind, false);
-        box3 reached = BOX3_EMPTY;
-        for (int k = 0; k <= 200; k++)
-            reached = add_ring(reached, &s, s.extent.min.z + (s.extent.max.z - s.extent.min.z) * k / 200);
+        const box3 reached = reached_by(&s);
         const box3 bounds = shape_bounds(&s.a.p, s.a.ref);
         const vec3 have = vec3_sub(bounds.max, bounds.min), need = vec3_sub(reached.max, reached.min);
         const double slack = 1e-8 * (s.length + vec3_max_abs(bounds.max));
         if (!(have.x <= 1.01 * need.x + slack && have.y <= 1.01 * need.y + slack &&
               have.z <= 1.01 * need.z + slack))
             fail_msg("bounds %g %g %g, needed %g %g %g", have.x, have.y, have.z, need.x, need.y, need.z);
+    }
+}
+
+/* How far it reaches along any direction: as its points do, seen by a map that brings that direction to x. */
+static void check_support(void **state) {
+    const int kind = *(int *)*state;
+    begin(kind);
+    for (int i = 0; i < 100; i++) {
+        struct subject s;
+        random_subject(&s, kind, false);
+        const vec3 d = vec3_scale(random_direction(&s), power_of_ten(-2, 2));
+        const double got = shape_support(&s.a.p, s.a.ref, d);
+        const double slack = 1e-8 * vec3_length(d) * (s.length + vec3_length(affine_column(s.map, 3)));
+        s.map = affine_compose((affine){{{d.x, d.y, d.z, 0}, {0}, {0}}}, s.map);
+        const box3 reached = reached_by(&s);
+        const double least = reached.max.x, most = least + 0.005 * (reached.max.x - reached.min.x);
+        if (!(got >= least - slack && got <= most + slack))
+            fail_msg("reaches %g, not %g to %g", got, least, most);
     }
 }
 
@@ -440,10 +531,10 @@ int main(void) {
     if (given) seed = strtoull(given, NULL, 10);
     print_message("SHAPE_SEED=%llu\n", (unsigned long long)seed);
     for (int kind = 0; kind < SUBJECT_COUNT; kind++) {
-        const bool convex = kind < CONVEX_FORMS || kind >= SPHERE;
+        const bool convex = kind < CONVEX_FORMS || (kind >= SPHERE && kind != PLANE); /* and has an end */
         const bool rimmed = kind == CYLINDER || kind == CONE || kind == FRUSTUM || kind == HYPERBOLOID;
-        const bool round =
-            kind < FORM_COUNT ? kind != CUBE && kind != TILTED && kind != SADDLE : kind != SQUARE;
+        const bool round = kind < FORM_COUNT ? kind != CUBE && kind != TILTED && kind != SADDLE
+                                             : kind != SQUARE && kind != PLANE;
         kinds[kind] = kind;
         add_test("points, normals and errors", check_surfaces, kind);
         if (convex) add_test("rays that leave", check_offsets, kind);
@@ -451,7 +542,9 @@ int main(void) {
         add_test("lists of crossings", check_lists, kind);
         if (rimmed) add_test("no leak at the rim", check_rims, kind);
         add_test("bounds hold", check_bounds_hold, kind);
-        if (round) add_test("bounds are tight", check_bounds_tight, kind);
+        if (!round && kind != CUBE && kind != SQUARE) continue;
+        add_test("bounds are tight", check_bounds_tight, kind);
+        add_test("its reach", check_support, kind);
     }
     add_test("crossings against a walk, random quadrics", check_any_quadric, -1);
     add_test("no crack between squares", check_crack, -1);

@@ -59,6 +59,18 @@ static const struct row rows[] = {
             "black, specular: [1, 1, 1], shininess: 0}}]",
      {1, 1, 1},
      0},
+    {"a highlight of next to exp(-40) is there: 1e24 / 2^79.8",
+     DOWN_Z
+     "lights: [{point: {at: [1.7320508075688772, 0, 1], color: [1e24, 1e24, 1e24]}}]\nscene: [{plane: {}, "
+     "material: {diffuse: black, specular: [1, 1, 1], shininess: 79.8}}]",
+     {0.95018, 0.95018, 0.95018},
+     1e-5},
+    {"beyond that it is none",
+     DOWN_Z
+     "lights: [{point: {at: [1.7320508075688772, 0, 1], color: [1e24, 1e24, 1e24]}}]\nscene: [{plane: {}, "
+     "material: {diffuse: black, specular: [1, 1, 1], shininess: 80.2}}]",
+     {0, 0, 0},
+     0},
     {"two lights add up",
      DOWN_Z "lights: [{point: {at: [0, 0, 10]}}, {point: {at: [0, 0, 20], color: [0.5, 0, 0]}}]\nscene: "
             "[{plane: {}, material: {diffuse: [0.2, 0.2, 0.2]}}]",
