@@ -179,7 +179,7 @@ exits 2 render nowhere.yaml s/a.yaml "${small[@]}" -o n/; there n/a.png
 exits 0 render -q 's/**/[abc].y*ml' "${small[@]}" -o v/; there v/a.png v/inner/b.png v/inner/deep/c.png
 exits 0 render -q './s//inn*/*/c.yaml' "${small[@]}" -o v2/; there v2/inner/deep/c.png
 exits 0 render -q "$work"'/s/inner/d*' s/inner/'*.yml' "${small[@]}" -o v3/; there v3/deep/c.png v3/b.png
-exits 0 render -q '[s]/../s/inner/b*' "${small[@]}" -o v4/; there v4/s/inner/b.png; (cd s && "$monge" render -q '**' "${small[@]}" -o ../v5/); there v5/inner/b.png
+exits 0 render '[s]/../s/inner/b*' "${small[@]}" -o v4/; err_has 'wrote v4/s/inner/b.png'; (cd s && "$monge" render -q '**' "${small[@]}" -o ../v5/); there v5/inner/b.png
 exits 0 render -q s/inner/b.yml s/inner/deep '[s]/a.yaml' @twice --root s "${small[@]}" -o v6/; there v6/a.png v6/inner/b.png v6/inner/deep/c.png
 ok "and no more" [ "$(find v6 -type f | wc -l)" -eq 3 ]
 exits 0 render -q s/a.yaml t/a.yaml --root . "${small[@]}" -o 'v7/{name}-x.png'; there v7/s/a-x.png v7/t/a-x.png

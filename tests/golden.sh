@@ -353,7 +353,9 @@ for kind in png hash; do
     scene s/two.yaml gold; scene extra/in/more.yaml lime; rm -rf g/*.png g/in g/golden.lock; exits 0 test s extra --golden g --update-only-failed -q; sums g >before
     exits 0 test s --golden g; out_has '1 golden is of scenes that are not in this run'; exits 0 accept --golden g --prune
     exits 0 test extra --golden g; out_has '3 goldens are of scenes'; exits 0 accept --golden g --prune; ok "$kind: all are kept" [ "$(sums g)" = "$(cat before)" ]
-    mv extra/in/more.yaml s/more.yaml; exits 1 test s --golden g; says orphan in/more; out_lacks 'not in this run'
+    mkdir extra/bin; mv extra/in/more.yaml extra/bin/more.yaml; exits 1 test s --golden g; says orphan in/more
+    mv s/two.yaml s/in/two.yaml; exits 1 test s --golden g; says orphan two; says new in/two; mv s/in/two.yaml s/two.yaml
+    mv extra/bin/more.yaml s/more.yaml; exits 1 test s --golden g; says orphan in/more; out_lacks 'not in this run'
     rm -r extra s/more.yaml; exits 1 test s --golden g; says orphan in/more; exits 0 accept --golden g --prune; rm s/two.yaml; sums g >before
     # an operand that is nothing: the run is not of all
     mkdir empty; exits 2 test s empty --golden g; err_has 'there is no scene in this folder'; out_lacks orphan
