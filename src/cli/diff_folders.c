@@ -247,7 +247,8 @@ static void compare_all(struct folders *folders) {
     const struct option_value *option = folders->diff->args->option;
     const unsigned processors = monge_processors();
     const unsigned jobs = folders->count < processors ? (unsigned)folders->count : processors;
-    const struct batch batch = {folders->count, jobs, folders, run_entry, end_entry};
+    const struct batch batch = {
+        .count = folders->count, .jobs = jobs, .context = folders, .run = run_entry, .ended = end_entry};
     folders->threads = option[OPTION_THREADS].given ? option[OPTION_THREADS].number[0] : processors / jobs;
     if (option[OPTION_DIFF_JSON].given) puts("[");
     batch_run(&batch);

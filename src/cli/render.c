@@ -86,8 +86,8 @@ static enum status foresee(struct unit *unit, unsigned frame) {
 static void tell_foreseen(const struct unit *unit) {
     for (size_t i = 0; i < unit->count; i++) {
         const struct picture *p = &unit->pictures[i];
-        const char *output = strcmp(p->output, "-") == 0 ? "standard output" : p->output;
         if (p->outcome == PICTURE_FAILED) continue;
+        const char *output = strcmp(p->output, "-") == 0 ? "standard output" : p->output;
         say_line(stdout, "%s -> %s: %s%s%s", unit->output->title, output,
                  p->reason ? "would be rendered" : "unchanged", p->reason && *p->reason ? ": " : "",
                  p->reason ? p->reason : "");
