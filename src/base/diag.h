@@ -44,8 +44,8 @@ struct diagnostic {
     const char *help;    /* the smallest fix, drawn behind the caret; NULL: none */
     const char *note;    /* background in a line of its own; NULL: none */
     struct related *related;
-    unsigned load; /* which of the loads told it last */
-    bool printed;
+    unsigned load;       /* which of the loads told it last */
+    bool printed, taken; /* by diag_print_new, by diag_take */
     struct diagnostic *next;
 };
 
@@ -100,6 +100,9 @@ bool diag_full(const struct diagnostics *diag);
 /* How many there are that are not kept, as "and 12 more". False where there are none. */
 enum { DIAG_MORE_SIZE = 32 };
 bool diag_more(const struct diagnostics *diag, char text[DIAG_MORE_SIZE]);
+
+/* The first that is no warning of those told since the last time: what has gone wrong meanwhile; NULL: nothing. */
+const struct diagnostic *diag_take(struct diagnostics *diag);
 
 void diag_print(const struct diagnostics *diag, FILE *out);
 void diag_print_new(struct diagnostics *diag, FILE *out); /* what it has not printed yet */

@@ -77,7 +77,8 @@ void load_close(struct loader *loader, struct load *load) {
 
 bool load_allows(const struct loader *loader, const char *path, const struct monge_settings *settings) {
     if ((uint64_t)settings->width * settings->height <= loader->limits.pixels) return true;
-    say_error("%s: a picture of %ux%u has more than %zu pixels (the limit `pixels`)", path, settings->width,
-              settings->height, loader->limits.pixels);
+    report_failure(&loader->report, "limit-pixels",
+                   "%s: a picture of %ux%u has more than %zu pixels (the limit `pixels`)", path,
+                   settings->width, settings->height, loader->limits.pixels);
     return false;
 }

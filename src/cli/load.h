@@ -42,7 +42,7 @@ void load_examine(struct loader *loader, struct load *load);
 
 void load_close(struct loader *loader, struct load *load);
 
-/* Whether a picture of these settings keeps to the limits; if not, the reason is on stderr. */
+/* Whether a picture of these settings keeps to the limits; if not, the reason is told. */
 bool load_allows(const struct loader *loader, const char *path, const struct monge_settings *settings);
 
 #endif

@@ -236,12 +236,14 @@ static bool check_streams(const struct plan *plan) {
 /* ---- Folders ---- */
 
 /* Makes the folder before the last slash of `path`, and those above it. */
-static bool make_folder(char *path) {
+static bool make_folder(const struct report *report, char *path) {
     for (char *slash = strchr(path + 1, '/'); slash; slash = strchr(slash + 1, '/')) {
         *slash = '\0';
         const int reason = mkdir(path, 0777) == 0 ? 0 : errno;
         const bool there = is_folder(path);
-        if (!there) say_error("cannot make the folder %s: %s", path, strerror(reason));
+        if (!there)
+            report_failure(report, "cannot-make-folder", "cannot make the folder %s: %s", path,
+                           strerror(reason));
         *slash = '/';
         if (!there) return false;
     }
@@ -249,13 +251,13 @@ static bool make_folder(char *path) {
 }
 
 /* So that nobody waits for a picture that cannot be kept. */
-static bool check_writable(const char *path) {
+static bool check_writable(const struct report *report, const char *path) {
     if (is_stream(path) || is_special(path)) return true;
     const size_t length = folder_length(path);
     char *folder = length ? say_text("%.*s", (int)length, path) : say_text(".");
     const bool writable =
         access(folder, W_OK | X_OK) == 0 && (access(path, F_OK) != 0 || access(path, W_OK) == 0);
-    if (!writable) say_error("cannot write %s: %s", path, strerror(errno));
+    if (!writable) report_failure(report, "cannot-write", "cannot write %s: %s", path, strerror(errno));
     free(folder);
     return writable;
 }
@@ -271,7 +273,7 @@ static bool check_passes_writable(const struct plan *plan, const char *picture) 
     bool writable = true;
     for (enum monge_layer layer = 0; layer < MONGE_LAYERS && writable; layer++) {
         char *path = plan->passes >> layer & 1 ? aov_path(layer, picture) : NULL;
-        writable = !path || check_writable(path);
+        writable = !path || check_writable(plan->report, path);
         free(path);
     }
     return writable;
@@ -279,8 +281,8 @@ static bool check_passes_writable(const struct plan *plan, const char *picture) 
 
 bool plan_reach(const struct plan *plan, const char *path) {
     char *copy = say_text("%s", path);
-    const bool good = (!makes_folders(plan) || make_folder(copy)) && check_writable(path) &&
-                      check_passes_writable(plan, path);
+    const bool good = (!makes_folders(plan) || make_folder(plan->report, copy)) &&
+                      check_writable(plan->report, path) && check_passes_writable(plan, path);
     free(copy);
     return good;
 }
@@ -317,13 +319,14 @@ static bool make_outputs(struct plan *plan) {
 }
 
 bool plan_begin(struct plan *plan, const struct arguments *args, const struct scenes *scenes,
-                const struct sweep *sweep) {
+                const struct sweep *sweep, const struct report *report) {
     const struct option_value *frames = &args->option[OPTION_FRAMES];
     *plan = (struct plan){
         .wanted = args->option[OPTION_OUTPUT].text,
         .stats = args->option[OPTION_STATS].text,
         .log = args->option[OPTION_LOG].text,
         .lock = PTHREAD_MUTEX_INITIALIZER,
+        .report = report,
         .sweep = sweep,
         .frames = frames->given ? frames : NULL,
         .passes = args->option[OPTION_AOV].choices,
@@ -331,7 +334,7 @@ bool plan_begin(struct plan *plan, const struct arguments *args, const struct sc
         .count = scenes->count * sweep->total,
     };
     return check_pattern(plan) && (!plan->wanted || check_extension(plan->wanted)) && make_outputs(plan) &&
-           check_streams(plan) && check_files(plan) && (!plan->stats || check_writable(plan->stats));
+           check_streams(plan) && check_files(plan) && (!plan->stats || check_writable(report, plan->stats));
 }
 
 void plan_free(struct plan *plan) {

@@ -23,36 +23,48 @@ static struct picture *add_picture(struct unit *unit, const char *path, unsigned
     }
     unit->pictures = pictures;
     pictures[unit->count] = (struct picture){.scene = unit->output->scene,
-                                             .output = say_text("%s", path),
+                                             .output = path ? say_text("%s", path) : NULL,
                                              .frame = frame,
                                              .defines = unit->output->defines,
                                              .define_count = unit->work->loader.sweep.count};
     return &pictures[unit->count++];
 }
 
+/* The last one is none yet. */
+static void drop_picture(struct unit *unit) { picture_free(&unit->pictures[--unit->count]); }
+
 /* The last picture of the unit is done. */
 static enum status end_picture(struct unit *unit, enum status status) {
-    progress_done(&unit->progress, unit->pictures[unit->count - 1].outcome);
+    struct work *work = unit->work;
+    struct picture *picture = &unit->pictures[unit->count - 1];
+    if (picture->outcome == PICTURE_FAILED)
+        picture->problem = unit->problem;
+    else
+        problem_free(&unit->problem);
+    unit->problem = (struct problem){0};
+    log_keep(&work->log, (size_t)(unit - work->units), picture);
+    progress_done(&unit->progress, picture->outcome);
     return status;
 }
 
-/* The picture that there is no picture of. */
+/* The picture that there is no picture of; with --frames nobody knows yet where it would have gone. */
 static enum status fail_output(struct unit *unit, enum status status) {
-    add_picture(unit, unit->output->path, 0);
+    add_picture(unit, unit->work->plan.frames ? NULL : unit->output->path, 0);
     return end_picture(unit, status);
 }
 
 /* Whether it is asked for, and right, that the picture stays as it is. */
-static bool is_unchanged(const struct unit *unit, const char *path, unsigned frame) {
+static bool is_unchanged(const struct unit *unit, struct picture *picture) {
     const struct work *work = unit->work;
     const struct output *output = unit->output;
     if (!work_wants(work, OPTION_SKIP_UNCHANGED) && !work_wants(work, OPTION_RESUME)) return false;
     if (work->plan.passes) return false; /* a picture does not say that its passes are right */
-    char *asked = asked_text(work->args.option, output->defines, work->loader.sweep.count, frame);
-    const bool same = unchanged_picture(path, output->scene, asked, &work->loader.limits.load);
+    char *asked = asked_text(work->args.option, output->defines, work->loader.sweep.count, picture->frame);
+    const bool same = unchanged_picture(picture, asked, &work->loader.limits.load);
     free(asked);
-    if (same && work_wants(work, OPTION_RESUME)) checkpoint_forget(path);
-    if (same && !work_wants(work, OPTION_QUIET)) say_note("unchanged %s", path);
+    if (same) picture->outcome = PICTURE_UNCHANGED;
+    if (same && work_wants(work, OPTION_RESUME)) checkpoint_forget(picture->output);
+    if (same && !work_wants(work, OPTION_QUIET)) say_note("unchanged %s", picture->output);
     return same;
 }
 
@@ -64,10 +76,7 @@ static enum status render_frame(struct unit *unit, struct load *load, unsigned f
     const struct work *work = unit->work;
     struct picture *picture = &unit->pictures[unit->count - 1];
     if (work->plan.frames && !plan_reach(&work->plan, picture->output)) return STATUS_TROUBLE;
-    if (work->plan.frames && is_unchanged(unit, picture->output, frame)) {
-        picture->outcome = PICTURE_UNCHANGED;
-        return STATUS_YES;
-    }
+    if (work->plan.frames && is_unchanged(unit, picture)) return STATUS_YES;
     const enum status status = frame == *at ? STATUS_YES : load_frame(&unit->work->loader, load, frame);
     if (status == STATUS_YES) {
         *at = frame;
@@ -96,7 +105,8 @@ static enum status render_load(struct unit *unit, struct load *load, double begu
     struct work *work = unit->work;
     size_t count = 0;
     const unsigned total = monge_scene_frames(load->scene);
-    unsigned *frames = asked_frames(&work->args.option[OPTION_FRAMES], unit->output->scene, total, &count);
+    unsigned *frames = asked_frames(&work->args.option[OPTION_FRAMES], unit->output->scene, total,
+                                    &work->loader.report, &count);
     char **paths = frames ? plan_frames(&work->plan, unit->output, frames, count, total) : NULL;
     const enum status status =
         paths ? render_frames(unit, load, frames, paths, count, begun) : fail_output(unit, STATUS_TROUBLE);
@@ -110,11 +120,13 @@ static enum status render_load(struct unit *unit, struct load *load, double begu
 /* Without --frames, all that can be known before the scene is loaded: that its picture cannot be written, or need
  * not be. */
 static bool is_settled(struct unit *unit, enum status *status) {
-    const char *path = unit->output->path;
     if (unit->work->plan.frames) return false;
-    const bool reached = plan_reach(&unit->work->plan, path);
-    if (reached && !is_unchanged(unit, path, 0)) return false;
-    add_picture(unit, path, 0)->outcome = reached ? PICTURE_UNCHANGED : PICTURE_FAILED;
+    struct picture *picture = add_picture(unit, unit->output->path, 0);
+    const bool reached = plan_reach(&unit->work->plan, picture->output);
+    if (reached && !is_unchanged(unit, picture)) {
+        drop_picture(unit);
+        return false;
+    }
     *status = end_picture(unit, reached ? STATUS_YES : STATUS_TROUBLE);
     return true;
 }
@@ -135,16 +147,39 @@ static bool run_unit(void *context, size_t index) {
     struct work *work = context;
     struct unit *unit = &work->units[index];
     *unit = (struct unit){.work = work, .output = &work->plan.outputs[index]};
-    unit->progress = (struct progress_unit){.progress = &work->progress, .pictures = 1};
+    progress_unit_begin(&unit->progress, &work->progress);
+    report_watch(&unit->problem);
     unit->status = render_output(unit);
+    report_watch(NULL);
+    progress_unit_end(&unit->progress);
     return unit->status == STATUS_YES || !work_wants(work, OPTION_FAIL_FAST);
+}
+
+static void tell_repeated(struct work *work) {
+    if (work->repeated > 0)
+        say_note("%s: the same for %zu more combination%s", work->scene, work->repeated,
+                 work->repeated == 1 ? "" : "s");
+    work->repeated = 0;
+}
+
+/* What each combination of a broken scene says again is told once. */
+static void tell(struct work *work, const struct unit *unit, const char *said) {
+    const bool again = unit->status != STATUS_YES && *said && work->said &&
+                       work->scene == unit->output->scene && strcmp(work->said, said) == 0;
+    work->repeated += again;
+    if (again) return;
+    if (*said) progress_hide(&work->progress);
+    tell_repeated(work);
+    fputs(said, stderr);
+    free(work->said);
+    work->said = say_text("%s", said);
+    work->scene = unit->output->scene;
 }
 
 static void end_unit(void *context, size_t index, const char *said) {
     struct work *work = context;
     const struct unit *unit = &work->units[index];
-    if (*said) progress_hide(&work->progress);
-    fputs(said, stderr);
+    tell(work, unit, said);
     for (size_t i = 0; i < unit->count; i++) {
         work->outcomes[unit->pictures[i].outcome]++;
         log_picture(&work->log, &unit->pictures[i]);
@@ -168,25 +203,28 @@ static void list_failures(const struct work *work) {
     for (size_t i = 0; i < work->begun; i++)
         for (size_t k = 0; k < work->units[i].count; k++) {
             const struct picture *p = &work->units[i].pictures[k];
-            if (p->outcome == PICTURE_FAILED)
+            if (p->outcome != PICTURE_FAILED) continue;
+            if (p->output)
                 say_note("failed %s  from %s", p->output, work->units[i].output->title);
+            else
+                say_note("failed %s", work->units[i].output->title);
         }
 }
 
 static void summarize(const struct work *work) {
     const size_t *n = work->outcomes, left = work->plan.count - work->begun;
-    const size_t all = n[PICTURE_RENDERED] + n[PICTURE_UNCHANGED] + n[PICTURE_FAILED];
-    const bool wanted = all > FEW || (all + left > 1 && n[PICTURE_RENDERED] < all + left);
-    if (!wanted || work_wants(work, OPTION_QUIET)) return;
+    const size_t lost = n[PICTURE_FAILED] + work->loader.scenes.missing;
+    const size_t all = n[PICTURE_RENDERED] + n[PICTURE_UNCHANGED] + lost;
+    if (all + left < 2 || work_wants(work, OPTION_QUIET)) return;
+    if (all > FEW) list_failures(work);
     char *unchanged =
         n[PICTURE_UNCHANGED] ? say_text(", %zu unchanged", n[PICTURE_UNCHANGED]) : say_text("%s", "");
-    char *failed = n[PICTURE_FAILED] ? say_text(", %zu failed", n[PICTURE_FAILED]) : say_text("%s", "");
+    char *failed = lost ? say_text(", %zu failed", lost) : say_text("%s", "");
     char *rest = left ? say_text(", %zu not begun", left) : say_text("%s", "");
     say_note("%zu rendered%s%s%s", n[PICTURE_RENDERED], unchanged, failed, rest);
     free(rest);
     free(failed);
     free(unchanged);
-    if (all > FEW) list_failures(work);
 }
 
 static bool write_stats(const struct work *work, const char *path) {
@@ -197,7 +235,7 @@ static bool write_stats(const struct work *work, const char *path) {
         for (size_t k = 0; k < work->units[i].count; k++) *to++ = work->units[i].pictures[k];
     if (!all) say_error("out of memory");
     interrupt_defer();
-    const bool written = all && stats_write(path, all, count);
+    const bool written = all && stats_write(path, all, count, &work->loader.report);
     interrupt_settle();
     free(all);
     return written;
@@ -207,12 +245,15 @@ static bool write_stats(const struct work *work, const char *path) {
 
 static enum status render_all(struct work *work) {
     const struct option_value *option = work->args.option;
-    const struct batch batch = {work->plan.count, choose_jobs(work), work, run_unit, end_unit};
+    const unsigned jobs = choose_jobs(work);
+    const bool held = jobs > 1 || work->loader.sweep.total > 1;
+    const struct batch batch = {work->plan.count, jobs, held, work, run_unit, end_unit};
     work->worst = work->loader.scenes.status;
     progress_begin(&work->progress, (enum progress_wish)option[OPTION_PROGRESS].choice,
-                   option[OPTION_QUIET].given, work->plan.count);
+                   option[OPTION_QUIET].given, work->plan.count, work->loader.scenes.missing);
     work->begun = batch_run(&batch);
     progress_end(&work->progress);
+    tell_repeated(work);
     summarize(work);
     if (option[OPTION_STATS].text && !write_stats(work, option[OPTION_STATS].text))
         work->worst = STATUS_TROUBLE;
@@ -222,8 +263,8 @@ static enum status render_all(struct work *work) {
 static bool work_begin(struct work *work, const struct arguments *args) {
     *work = (struct work){.args = *args};
     if (!loader_begin(&work->loader, args) ||
-        !plan_begin(&work->plan, args, &work->loader.scenes, &work->loader.sweep) ||
-        !log_open(&work->log, args->option[OPTION_LOG].text))
+        !plan_begin(&work->plan, args, &work->loader.scenes, &work->loader.sweep, &work->loader.report) ||
+        !log_open(&work->log, args->option[OPTION_LOG].text, &work->loader.report))
         return false;
     /* a document on stderr must be alone there: the notes are left out */
     if (work->loader.report.format != MONGE_FORMAT_TEXT ||
@@ -236,12 +277,13 @@ static bool work_begin(struct work *work, const struct arguments *args) {
 
 static void work_end(struct work *work, bool begun) {
     for (size_t i = 0; i < work->begun; i++) {
-        for (size_t k = 0; k < work->units[i].count; k++) free(work->units[i].pictures[k].output);
+        for (size_t k = 0; k < work->units[i].count; k++) picture_free(&work->units[i].pictures[k]);
         free(work->units[i].pictures);
     }
     free(work->units);
+    free(work->said);
     plan_free(&work->plan);
-    loader_end(&work->loader, begun ? stderr : NULL);
+    loader_end(&work->loader, begun || report_has_failures(&work->loader.report) ? stderr : NULL);
 }
 
 static bool contradicts(const struct arguments *args, enum option_id a, enum option_id b) {

@@ -30,14 +30,26 @@ static bool is_whole(struct monge_picture *picture, struct monge_diagnostics *di
     return monge_picture_hash(picture, diag, now) && strcmp(said(picture, "monge:pixels"), now) == 0;
 }
 
-bool unchanged_picture(const char *path, const char *scene, const char *options,
-                       const struct monge_limits *limits) {
-    if (!is_file(path) || !is_file(scene)) return false;
+static void take_hash(const struct monge_picture *file, const char *key, char hash[MONGE_HASH_SIZE]) {
+    snprintf(hash, MONGE_HASH_SIZE, "%s", said(file, key));
+}
+
+/* What the file says of itself. */
+static void take_texts(const struct monge_picture *file, struct picture *picture) {
+    picture->region.width = monge_picture_width(file);
+    picture->region.height = monge_picture_height(file);
+    take_hash(file, "monge:scene", picture->scene_hash);
+    take_hash(file, "monge:pixels", picture->pixel_hash);
+}
+
+bool unchanged_picture(struct picture *picture, const char *options, const struct monge_limits *limits) {
+    if (!is_file(picture->output) || !is_file(picture->scene)) return false;
     struct monge_diagnostics *diag = monge_diagnostics_new(); /* what is in it is not wrong, but new */
-    struct monge_picture *picture = diag ? monge_picture_read(path, diag) : NULL;
+    struct monge_picture *file = diag ? monge_picture_read(picture->output, diag) : NULL;
     const bool same =
-        picture && is_asked_for(picture, scene, options, limits, diag) && is_whole(picture, diag);
-    monge_picture_free(picture);
+        file && is_asked_for(file, picture->scene, options, limits, diag) && is_whole(file, diag);
+    if (same) take_texts(file, picture);
+    monge_picture_free(file);
     monge_diagnostics_free(diag);
     return same;
 }

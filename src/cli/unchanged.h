@@ -4,11 +4,11 @@
 
 #include <stdbool.h>
 
-#include "monge.h"
+#include "cli/picture.h"
 
-/* Whether the file `path` is a whole picture that this program made from the scene file as it is now, with what it
- * includes, and with these options (as asked_text has them). False also where anything of that cannot be read. */
-bool unchanged_picture(const char *path, const char *scene, const char *options,
-                       const struct monge_limits *limits);
+/* Whether the file of `picture` is a whole picture that this program made from its scene file as it is now, with what it
+ * includes, and with these options (as asked_text has them). False also where anything of that cannot be read. True:
+ * the region's size and the hashes are those that the file has. */
+bool unchanged_picture(struct picture *picture, const char *options, const struct monge_limits *limits);
 
 #endif
