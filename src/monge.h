@@ -121,6 +121,8 @@ struct monge_load_options {
     unsigned frame; /* of an animation, from 1; 0: the first */
     bool untrusted; /* the scene reads files in its own folder alone */
     bool outline;   /* for monge_scene_info to have the tree of the scene: takes more time */
+    bool
+        again; /* the scene that diag was last told of, with other defines: what is told again is kept once */
 };
 
 struct monge_scene;

@@ -75,7 +75,7 @@ struct diagnostics {
 /* A load begins: as many may be kept of it as of the one before, and what that one told may be told again. */
 void diag_begin(struct diagnostics *diag);
 
-/* The last scene is loaded again, for another frame: what was told of it counts again, but is kept once. */
+/* The last scene is loaded again, for another frame or with other values: what was told of it counts again, but is kept once. */
 void diag_begin_again(struct diagnostics *diag);
 
 /* `code` is static. Each returns the diagnostic, to add help, a note or related places to; never NULL. The same

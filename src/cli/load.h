@@ -12,7 +12,10 @@ struct loader {
     struct sweep sweep;
     struct limits limits;
     bool untrusted;
-    bool outline; /* for monge info */
+    bool outline;     /* for monge info */
+    bool serial;      /* one load at a time: of a sweep through a scene, what is told again is told once */
+    const char *path; /* of the last scene, where it is so, */
+    struct monge_diagnostics *diag; /* and what there was to tell of it; owned */
     struct report report;
     struct scenes scenes;
 };

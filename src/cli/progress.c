@@ -101,6 +101,12 @@ static void draw_bar(struct progress *p, const char *name, double part, double s
 #define FEW_SECONDS 0.5
 #define FEW_WORK    0.05
 
+static size_t count_working(const struct progress *p) {
+    size_t count = 0;
+    for (const struct progress_unit *unit = p->first; unit; unit = unit->next) count++;
+    return count;
+}
+
 static bool is_rendering(const struct progress_unit *unit) { return unit->name != NULL; }
 
 /* The parts of a picture differ: the last half of the time counts most. */
@@ -112,16 +118,17 @@ static void add_share(struct progress_unit *unit, double seconds) {
     unit->recent_seconds = unit->recent_seconds * kept + seconds;
 }
 
-/* Shares the time up to now among the units that are at work. What is not rendering, as reading and writing, is
- * counted by the picture. */
+/* Shares the time up to now among those at work. What it takes to write a picture counts as its rendering. */
 static void share_time(struct progress *p) {
     const double now = clock_seconds();
-    size_t working = 0;
-    for (const struct progress_unit *unit = p->first; unit; unit = unit->next) working++;
+    const double share = p->first ? (now - p->now) / (double)count_working(p) : 0.0;
     for (struct progress_unit *unit = p->first; unit; unit = unit->next) {
-        if (!is_rendering(unit)) continue;
-        add_share(unit, (now - p->now) / (double)working);
-        p->seconds += (now - p->now) / (double)working;
+        if (unit->work == 0.0) {
+            unit->reading += share;
+            continue;
+        }
+        add_share(unit, share);
+        p->seconds += share;
     }
     p->now = now;
 }
@@ -157,20 +164,20 @@ static double rendering_left(const struct progress *p) {
     return seconds;
 }
 
-/* Reading, writing and the like of the pictures that have not begun. */
-static double rest_left(const struct progress *p) {
-    size_t begun = count_done(p);
+/* Of those whose first picture has not begun, until it does. */
+static double reading_left(const struct progress *p) {
+    const double mean = p->known_units ? p->reading / (double)p->known_units : 0.0;
+    double seconds = (double)(p->units - p->begun) * mean;
     for (const struct progress_unit *unit = p->first; unit; unit = unit->next)
-        begun += unit->done < unit->pictures;
-    if (begun == 0 || begun >= p->pictures) return 0.0;
-    return (p->now - p->start - p->seconds) / (double)begun * (double)(p->pictures - begun);
+        if (unit->work == 0.0 && unit->reading < mean) seconds += mean - unit->reading;
+    return seconds;
 }
 
 double progress_seconds_left(const struct progress *p) {
     if (count_done(p) == p->pictures) return 0.0;
     const double part = p->worked / (p->worked + work_left(p));
     const bool grounded = p->worked > 0.0 && (p->seconds >= FEW_SECONDS || part >= FEW_WORK);
-    return grounded ? rendering_left(p) + rest_left(p) : -1.0;
+    return grounded ? rendering_left(p) + reading_left(p) : -1.0;
 }
 
 /* Of the time; as long as that is not known, of the work. */
@@ -270,6 +277,7 @@ void progress_picture(struct progress_unit *unit, const char *name, const struct
     pthread_mutex_lock(&p->lock);
     share_time(p);
     p->known_units += unit->work == 0.0;
+    p->reading += unit->work == 0.0 ? unit->reading : 0.0;
     p->known_work -= (double)unit->pictures * unit->work;
     unit->work = (double)pixels * picture->settings.samples;
     p->known_work += (double)unit->pictures * unit->work;

@@ -37,6 +37,7 @@ struct progress_unit {
     uint64_t pixels, of_pixels;         /* of it, that are done */
     uint64_t known;                     /* of these, that were so before it began */
     double work;                        /* of a whole picture; 0: not known yet */
+    double reading;                     /* the share of the time before that was known */
     double seconds;                     /* the share of the time that its rendering has had */
     double recent_work, recent_seconds; /* what came of it, and that: of the latest the most */
 };
@@ -48,11 +49,11 @@ struct progress {
     size_t begun;            /* units */
     size_t done[3];          /* pictures, by their outcome */
     struct progress_unit *first;
-    size_t known_units;       /* whose work is known, */
-    double known_work;        /* and how much that is */
-    double worked, seconds;   /* rendered of it, and how long that took */
-    double start, now, shown; /* seconds by clock_seconds; now: up to which they are shared */
-    size_t columns;           /* of the line that stands; 0: none */
+    size_t known_units;         /* whose work is known, */
+    double known_work, reading; /* how much that is, and the time before it was */
+    double worked, seconds;     /* rendered of it, and how long that took */
+    double start, now, shown;   /* seconds by clock_seconds; now: up to which they are shared */
+    size_t columns;             /* of the line that stands; 0: none */
 };
 
 /* `quiet` makes a wish of auto mean never. missing: what was asked for and is not there, which counts as pictures

@@ -270,6 +270,7 @@ static bool work_begin(struct work *work, const struct arguments *args) {
     if (work->loader.report.format != MONGE_FORMAT_TEXT ||
         args->option[OPTION_PROGRESS].choice == PROGRESS_JSON)
         work->args.option[OPTION_QUIET].given = true;
+    work->loader.serial = work->loader.report.format != MONGE_FORMAT_TEXT; /* see choose_jobs */
     work->units = calloc(work->plan.count + 1, sizeof *work->units);
     if (!work->units) say_error("out of memory");
     return work->units != NULL;
