@@ -771,11 +771,12 @@ if have perl; then
     ok "auto: nothing in a pipe" [ ! -s err ]
 fi
 if have script && have perl; then
-    on_terminal() { script -qec "stty cols ${columns:-60}; $*" /dev/null </dev/null >terminal 2>&1; status=$?; last="on a terminal: $*"; }
+    on_terminal() { script -qec "stty cols ${columns:-60}; export TERM=${term:-xterm}; $*" /dev/null </dev/null >terminal 2>&1; status=$?; last="on a terminal: $*"; }
     bar="perl -e 'my \$p = fork; exec \"$monge\", qw(render ${lively[*]} one.yaml -o p.png) if !\$p; select undef, undef, undef, 0.6; kill TERM => \$p; waitpid \$p, 0'"
     on_terminal "$bar"
     ok "auto: a bar on a terminal" grep -q 'left' terminal
     ok "no wider than the terminal" [ -z "$(tr '\r' '\n' <terminal | grep -E '.{60}')" ]
+    term=dumb on_terminal "$bar"; ok "auto: none on a dumb one" [ ! -s terminal ]
     columns=20 on_terminal "$bar"
     ok "no wider than a narrow terminal" [ -z "$(tr '\r' '\n' <terminal | grep -E '.{20}')" ]
     on_terminal "$monge render -q ${small[*]} one.yaml -o -"
