@@ -299,9 +299,9 @@ for signal in KILL TERM; do
     exits 0 render long.yaml "${long[@]}" --resume; err_has 'unchanged long.png'; missing .long.png.partial
 done
 last='several, stopped'; for i in 1 2 3 4; do cp long.yaml stop-$i.yaml; done
-"$monge" render stop-*.yaml -j 3 -q "${long[@]}" -o stopped/ 2>err & pid=$!
+"$monge" render stop-*.yaml -j 3 -q "${long[@]}" -o stopped/ --log stop.log 2>err & pid=$!
 until [ -d stopped ]; do sleep 0.01; done; sleep 0.1; kill -TERM $pid; wait $pid; status=$?
-ok "the signal ends it" [ $status -eq 143 ]; ok "nothing is left" [ -z "$(ls -A stopped)" ]
+ok "the signal ends it" [ $status -eq 143 ]; ok "nothing is left" [ -z "$(ls -A stopped)" ]; ok "what was stopped has not failed" [ "$(cat stop.log .stop.log.waiting 2>/dev/null | grep -c failed)" -eq 0 ]; rm -f .stop.log.waiting
 part() { run render long.yaml --samples 1 --shadow 0.9 --resume -o "${1:-long.png}"; }
 rm long.png; cp saved .long.png.partial; part; err_lacks resumed; missing .long.png.partial
 run render --samples 1 --shadow 0.9 -q long.yaml -o short.png; same long.png short.png

@@ -33,6 +33,11 @@ static struct picture *add_picture(struct unit *unit, const char *path, unsigned
 /* The last one is none yet. */
 static void drop_picture(struct unit *unit) { picture_free(&unit->pictures[--unit->count]); }
 
+/* A signal has come, which will end the program: what it stopped has not failed. */
+static bool is_stopped(const struct picture *picture) {
+    return picture->outcome == PICTURE_FAILED && interrupt_pending();
+}
+
 /* The last picture of the unit is done. */
 static enum status end_picture(struct unit *unit, enum status status) {
     struct work *work = unit->work;
@@ -42,7 +47,7 @@ static enum status end_picture(struct unit *unit, enum status status) {
     else
         problem_free(&unit->problem);
     unit->problem = (struct problem){0};
-    log_keep(&work->log, (size_t)(unit - work->units), picture);
+    if (!is_stopped(picture)) log_keep(&work->log, (size_t)(unit - work->units), picture);
     progress_done(&unit->progress, picture->outcome);
     return status;
 }
@@ -182,7 +187,7 @@ static void end_unit(void *context, size_t index, const char *said) {
     tell(work, unit, said);
     for (size_t i = 0; i < unit->count; i++) {
         work->outcomes[unit->pictures[i].outcome]++;
-        log_picture(&work->log, &unit->pictures[i]);
+        if (!is_stopped(&unit->pictures[i])) log_picture(&work->log, &unit->pictures[i]);
     }
     if (unit->status > work->worst) work->worst = unit->status;
 }
