@@ -97,7 +97,7 @@ static void draw_bar(struct progress *p, const char *name, double part, double s
 
 /* ---- The time that is left ---- */
 
-/* Before so many seconds of rendering, or this part of all the work that is known, there is no ground for it. */
+/* Before so many seconds there is no ground for it; or this part of the work of a single scene. */
 #define FEW_SECONDS 0.5
 #define FEW_WORK    0.05
 
@@ -176,8 +176,8 @@ static double reading_left(const struct progress *p) {
 double progress_seconds_left(const struct progress *p) {
     if (count_done(p) == p->pictures) return 0.0;
     const double part = p->worked / (p->worked + work_left(p));
-    const bool grounded = p->worked > 0.0 && (p->seconds >= FEW_SECONDS || part >= FEW_WORK);
-    return grounded ? rendering_left(p) + reading_left(p) : -1.0;
+    const bool enough = p->now - p->start >= FEW_SECONDS || (p->units == 1 && part >= FEW_WORK);
+    return p->worked > 0.0 && enough ? rendering_left(p) + reading_left(p) : -1.0;
 }
 
 /* Of the time; as long as that is not known, of the work. */

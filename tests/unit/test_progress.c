@@ -137,7 +137,7 @@ static void check_row(void **state) {
     const struct row *row = *state;
     const size_t count = run(row);
     const double end = steps[count - 1].at + STEP;
-    assert_true(steps[0].left < 0.0); /* nobody knows yet */
+    for (size_t i = 0; steps[i].at < 0.45; i++) assert_true(steps[i].left < 0.0); /* nobody knows yet */
     for (size_t i = 0; i < count; i++) {
         const double left = end - steps[i].at, slack = 5 * STEP; /* of the steps themselves */
         if (steps[i].at < row->from) continue;
