@@ -223,6 +223,7 @@ $(BUILD)/libmonge.a: $(OBJECTS)
 # What a test has of its own, to see what happens when it fails.
 WRAPPED_test_format := layout_same_events
 WRAPPED_test_memory := malloc calloc realloc
+WRAPPED_test_progress := clock_gettime
 
 $(BUILD)/tests/%: $(BUILD)/obj/tests/unit/%.o $(BUILD)/libmonge.a
 	@mkdir -p $(@D)

@@ -180,7 +180,10 @@ static struct monge_load_options load_options(const struct monge_load_options *g
 }
 
 static struct monge_scene *run_load(struct load *load) {
-    diag_begin(load->diag);
+    if (load->options.again)
+        diag_begin_again(load->diag);
+    else
+        diag_begin(load->diag);
     load->scene = calloc(1, sizeof *load->scene);
     if (!load->scene) {
         diag_failure(load->diag, "out-of-memory", "%s: out of memory", load->name);

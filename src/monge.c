@@ -1,6 +1,7 @@
 /* The library's face: what is wrong, settings and rendering. Scenes are loaded in load.c. */
 #include "monge.h"
 
+#include <assert.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
@@ -33,6 +34,29 @@ void monge_diagnostics_free(struct monge_diagnostics *diag) {
 unsigned monge_diagnostics_errors(const struct monge_diagnostics *diag) { return diag->list.errors; }
 unsigned monge_diagnostics_warnings(const struct monge_diagnostics *diag) { return diag->list.warnings; }
 unsigned monge_diagnostics_failures(const struct monge_diagnostics *diag) { return diag->list.failures; }
+
+/* One of the stories' codes, which are static. */
+static const char *known_code(const char *code) {
+    const struct diag_story *story = diag_find_story(stories, code);
+    assert(story);
+    return story->code;
+}
+
+void monge_diagnostics_fail(struct monge_diagnostics *diag, const char *code, const char *message) {
+    diag_failure(&diag->list, known_code(code), "%s", message);
+}
+
+void monge_diagnostics_warn(struct monge_diagnostics *diag, const char *code, const char *message) {
+    diag_warning(&diag->list, (struct span){0}, known_code(code), "%s", message);
+}
+
+bool monge_diagnostics_take(struct monge_diagnostics *diag, struct monge_problem *first) {
+    const struct diagnostic *d = diag_take(&diag->list);
+    if (d)
+        *first = (struct monge_problem){d->code, d->message, d->place.file, d->place.line, d->place.column};
+    return d != NULL;
+}
+
 void monge_diagnostics_print(const struct monge_diagnostics *diag, FILE *out) {
     diag_print(&diag->list, out);
 }

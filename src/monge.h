@@ -61,6 +61,18 @@ unsigned monge_diagnostics_warnings(const struct monge_diagnostics *diag); /* in
 unsigned
 monge_diagnostics_failures(const struct monge_diagnostics *diag); /* of the system, so far: files, memory */
 
+/* For a program that has more to tell: a failure, or a warning without a place. code is one of monge_code's. */
+void monge_diagnostics_fail(struct monge_diagnostics *diag, const char *code, const char *message);
+void monge_diagnostics_warn(struct monge_diagnostics *diag, const char *code, const char *message);
+
+/* The first error or failure, by place, of those told since the last call. False: there is none. The texts live as
+ * long as diag; file is NULL where there is no place. */
+struct monge_problem {
+    const char *code, *message, *file;
+    unsigned line, column; /* from 1 */
+};
+bool monge_diagnostics_take(struct monge_diagnostics *diag, struct monge_problem *first);
+
 /* All so far as text for people, `file:line:col: error[code]: ...` and the line with a caret; by place. */
 void monge_diagnostics_print(const struct monge_diagnostics *diag, FILE *out);
 
@@ -109,6 +121,8 @@ struct monge_load_options {
     unsigned frame; /* of an animation, from 1; 0: the first */
     bool untrusted; /* the scene reads files in its own folder alone */
     bool outline;   /* for monge_scene_info to have the tree of the scene: takes more time */
+    bool
+        again; /* the scene that diag was last told of, with other defines: what is told again is kept once */
 };
 
 struct monge_scene;

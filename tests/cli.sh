@@ -279,7 +279,7 @@ exits 2 render one.yaml --threads 0; err_has '--threads: expected a whole number
 exits 2 render one.yaml --progress yes; err_has '--progress: expected auto, always, never or json'
 exits 2 render one.yaml --shadow 0.5 --no-shadows; err_has '--shadow and --no-shadows'
 missing one.png
-exits 2 render one.yaml "${small[@]}" --region 10,0,7,1; err_has '--region 10,0,7,1'; err_has '16x12'; missing one.png
+exits 2 render one.yaml "${small[@]}" --region 10,0,7,1; err_has 'error[outside-region]: --region 10,0,7,1 does not lie within the picture of one.yaml, which is 16x12'; missing one.png
 exits 2 render one.yaml --size 65535x65535; err_has 'one.yaml: '; missing one.png
 
 # ---- Where pictures go ----
@@ -351,7 +351,7 @@ exits 0 render "${small[@]}" -q one.yaml -o x.y; is_png x.y
 exits 0 render "${small[@]}" -q one.yaml -o 'made/{name}/of.{name}.png'; is_png made/one/of.one.png
 exits 2 render one.yaml -o none/x.png; err_has 'monge: cannot write none/x.png: No such file or directory; -o none/ would make the folder'; missing none
 exits 2 render one.yaml -o file/x.png; err_has 'file/x.png: Not a directory'
-exits 2 render one.yaml -o file/; err_has 'cannot make the folder file'
+exits 2 render one.yaml -o file/; err_has 'error[cannot-make-folder]: cannot make the folder file: it is a file'
 if [ -e full ]; then
     exits 2 render "${small[@]}" one.yaml -o full; err_has 'cannot write full: No space left on device'
     exits 2 render "${small[@]}" one.yaml -o x.png --stats full; err_has 'cannot write full: No space left on device'
@@ -466,7 +466,7 @@ exits 1 check -q params.yaml -D a=1,-1,2; ok "each is checked" [ "$(cat out)" = 
 mkdir sweep && cd sweep && cp ../params.yaml ../one.yaml .
 exits 0 render "${small[@]}" params.yaml -D a=1,2 -D b=0.5 -D 'tint=gold,"#ff0000"'
 ok "their names" [ "$(ls ./*.png | tr '\n' ' ')" = './params-a=1-tint=ff0000.png ./params-a=1-tint=gold.png ./params-a=2-tint=ff0000.png ./params-a=2-tint=gold.png ' ]
-ok "their order" [ "$(sed 's/^wrote params-\(.*\).png .*/\1/' err | tr '\n' ' ')" = 'a=1-tint=gold a=1-tint=ff0000 a=2-tint=gold a=2-tint=ff0000 ' ]
+ok "their order" [ "$(sed -n 's/^wrote params-\(.*\).png .*/\1/p' err | tr '\n' ' ')" = 'a=1-tint=gold a=1-tint=ff0000 a=2-tint=gold a=2-tint=ff0000 ' ]
 exits 0 render -q "${small[@]}" params.yaml -D a=2 -D tint=gold -o x.png; ok "as by itself" same_pixels x.png params-a=2-tint=gold.png
 exits 0 render -q "${small[@]}" params.yaml -D a=1,2 -o 'p/{a}/{name}-{a}.png'; is_png p/1/params-1.png; is_png p/2/params-2.png
 exits 0 render -q "${small[@]}" params.yaml -D a=1,2 -o 'd/'; is_png d/params-a=1.png; is_png d/params-a=2.png
@@ -490,7 +490,7 @@ ok "standard input with a sweep" [ $status -eq 0 ]; ok "its first" cmp s1.png p/
 exits 0 render "${small[@]}" -q params.yaml -D a=1,2 -D b=1 --stats s.json
 ok "the statistics have the parameters" grep -qF '"params": {"a": "2", "b": "1"}' s.json
 exits 0 render --size 640x480 --samples 16 --threads 1 params.yaml -D a=1,2 --progress always -o 'p{a}.png'
-err_has ' of 2 pictures  ['
+err_has '0 of 2 pictures  params  ['
 exits 1 render "${small[@]}" params.yaml -D a=1,-1,2; err_has '2 rendered, 1 failed'
 cd ..
 
@@ -538,9 +538,9 @@ done
 for bad in 0 0-3 3-2 -3 x 1-x 1:0 1: all: 1-2-3 '' 1000001 allx; do
     exits 2 render view.yaml --frames "$bad"; err_has "--frames: expected N, A-B, A- or all, perhaps with :STEP, from 1, found \`$bad\`"
 done
-for bad in 13 12-13 13- 13-14; do exits 2 render view.yaml --frames $bad; err_has "--frames $bad: view.yaml has 12 frames"; done
+for bad in 13 12-13 13- 13-14; do exits 2 render view.yaml --frames $bad; err_has "error[no-frame]: --frames $bad: view.yaml has 12 frames"; done
 for asked in 1 1-3 2-; do
-    exits 2 render one.yaml --frames $asked; err_has "--frames $asked: one.yaml has no animation; \`animation: {frames: 48}\` makes one"
+    exits 2 render one.yaml --frames $asked; err_has "--frames $asked: one.yaml"; err_has 'one.yaml has no animation; `animation: {frames: 48}` makes one'
 done
 # a still among animations is one picture
 exits 0 render -q "${small[@]}" one.yaml -o plain.png
@@ -658,7 +658,7 @@ exits 2 check one.yaml --limit memory_bytes=1; err_has 'limit-memory'
 exits 1 check six.yaml --limit objects=5; err_has 'limit-objects'; exits 0 check six.yaml --limit objects=6
 printf 'scene:\n  - sphere: {center: [3 * i, 0, 0]}\n    for: {i: {from: 1, to: 50}}\n' >loop.yaml
 exits 1 check loop.yaml --limit steps=20; err_has 'limit-steps'; exits 0 check loop.yaml --limit steps=1k
-exits 1 check one.yaml --limit pixels=1000; err_has 'one.yaml: a picture of 640x480 has more than 1000 pixels (the limit `pixels`)'; out_has '1 error'
+exits 1 check one.yaml --limit pixels=1000; err_has 'error[limit-pixels]: one.yaml: a picture of 640x480 has more than 1000 pixels (the limit `pixels`)'; out_has '1 error'
 exits 1 render one.yaml --limit pixels=1k -o x.png; err_has 'the limit `pixels`'
 exits 2 render one.yaml --limit pixels=1k --size 100x100 -o x.png; err_has 'a picture of 100x100'
 exits 0 render -q one.yaml --limit pixels=192 "${small[@]}" -o x.png
@@ -776,6 +776,7 @@ exits 0 help import; out_has '-o, --output FILE'
 # ---- Statistics ----
 
 exits 1 render "${small[@]}" --threads 2 one.yaml wrong.yaml -o deep/ --stats s.json; no_out
+sed -n 's/^wrong.yaml:.*error\[\(.*\)\].*/\1/p' err | head -n 1 >s.code
 cp one.yaml $'od"d\\\377\n.yaml'
 run render "${small[@]}" -q $'od"d\\\377\n.yaml' --stats odd.json
 ok "an odd name" [ $status -eq 0 ]
@@ -797,7 +798,10 @@ assert rays["camera"] == 16 * 12 * good["samples"]
 assert rays["total"] == sum(rays[k] for k in ("camera", "shadow", "reflection", "refraction"))
 built = json.load(open("many.json"))["pictures"][0]
 assert built["primitives"] == 300 and built["seconds"]["build"] > 0
-assert bad == {"scene": "wrong.yaml", "output": "deep/wrong.png", "status": "failed", "error": True}
+assert (bad["scene"], bad["output"], bad["status"]) == ("wrong.yaml", "deep/wrong.png", "failed") and "started" not in good
+error = bad["error"]
+assert list(error) == ["code", "message", "file", "line", "column"]
+assert (error["file"], error["code"]) == ("wrong.yaml", open("s.code").read().strip())
 assert json.load(open("odd.json"))["pictures"][0]["scene"] == 'od"d\\\ufffd\n.yaml'
 PYTHON
 fi
@@ -828,11 +832,12 @@ if have perl; then
     ok "auto: no bar in a pipe" [ "$(cat err)" = 'interrupted: 0 of 1 rendered' ]
 fi
 if have script && have perl; then
-    on_terminal() { script -qec "stty cols ${columns:-60}; $*" /dev/null </dev/null >terminal 2>&1; status=$?; last="on a terminal: $*"; }
+    on_terminal() { script -qec "stty cols ${columns:-60}; export TERM=${term:-xterm}; $*" /dev/null </dev/null >terminal 2>&1; status=$?; last="on a terminal: $*"; }
     bar="perl -e 'my \$p = fork; exec \"$monge\", qw(render ${lively[*]} one.yaml -o p.png) if !\$p; select undef, undef, undef, 0.6; kill TERM => \$p; waitpid \$p, 0'"
     on_terminal "$bar"
     ok "auto: a bar on a terminal" grep -q 'left' terminal
     ok "no wider than the terminal" [ -z "$(tr '\r' '\n' <terminal | grep -E '.{60}')" ]
+    term=dumb on_terminal "$bar"; ok "auto: none on a dumb one" [ "$(tr -d '\r' <terminal)" = 'interrupted: 0 of 1 rendered' ]
     columns=20 on_terminal "$bar"
     ok "no wider than a narrow terminal" [ -z "$(tr '\r' '\n' <terminal | grep -v ^interrupted | grep -E '.{20}')" ]
     on_terminal "$monge render -q ${small[*]} one.yaml -o -"

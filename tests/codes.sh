@@ -14,6 +14,7 @@ pending=''
 # Not in the expected texts of tests/errors/ and tests/import/: what no scene gives.
 elsewhere='
 bad-picture         no scene: tests/diff.sh
+cannot-make-folder  no scene: tests/batch.sh
 cannot-read         no scene: tests/formats/expected.json
 cannot-write        no scene: tests/formats.sh
 format-differs      a mistake in Monge, none is known that gives it: tests/unit/test_format.c
@@ -22,8 +23,12 @@ limit-file-bytes    a file of over 1 GiB: tests/unit/test_diagnostics.c
 limit-instances     a render, which check has not: tests/cli.sh
 limit-memory        a scene of over 8 GiB: tests/unit/test_diagnostics.c
 limit-objects       more primitives than there is memory for: tests/unit/test_scene.c
+limit-pixels        an option: tests/cli.sh
+no-frame            an option: tests/cli.sh
+no-match            no scene: tests/batch.sh
 odd-key             for monge fmt alone: tests/fmt.sh
 out-of-memory       a system without memory: tests/unit/test_memory.c
+outside-region      an option: tests/cli.sh
 unknown-parameter   a value from outside: tests/unit/test_diagnostics.c
 '
 
@@ -44,8 +49,8 @@ words() { tr -s ' ' '\n' <<<"$1" | grep . | sort -u; }
 # The first text of a call is its code; and, but for the import, every text that looks like one: some are passed on.
 # `beyond` is what only_counted gives to a list that is full: it is never kept.
 codes_of_src() {
-    cat src/*.c src/{base,lang,scene,render}/*.c | tr '\n' ' ' |
-        grep -oE 'diag_(error|warning|failure)\([^"]*"[a-z]+(-[a-z]+)*"' | grep -oE '"[a-z-]+"$' | tr -d '"'
+    cat src/*.c src/{base,lang,scene,render,cli}/*.c | tr '\n' ' ' |
+        grep -oE '(diag|report)_(error|warning|failure)\([^"]*"[a-z]+(-[a-z]+)*"' | grep -oE '"[a-z-]+"$' | tr -d '"'
     find src/lang src/scene src/*.c -name '*.c' ! -name 'import_*.c' -exec cat {} + |
         grep -oE '"[a-z]+(-[a-z]+)+"' | tr -d '"'
 }
@@ -96,7 +101,7 @@ texts_of_src() {
         while (match(rest, /"([^"\\]|\\.)*"|[^ ]/)) {
             token = substr(rest, RSTART, RLENGTH)
             if (!depth) {
-                if (!match(rest, / (diag_(error|warning|failure|help|note|related)|wrong|wrong_value|bad|slip)\(/)) break
+                if (!match(rest, / ((diag|report)_(error|warning|failure)|diag_(help|note|related)|wrong|wrong_value|bad|slip)\(/)) break
                 depth = 1
                 line = FNR
             } else if (token ~ /^"/) {
@@ -107,7 +112,7 @@ texts_of_src() {
             }
             rest = substr(rest, RSTART + RLENGTH)
         }
-    }' src/*.c src/{base,lang,scene,render}/*.c
+    }' src/*.c src/{base,lang,scene,render,cli}/*.c
 }
 known_texts() { # in C, one that is cut into pieces is put together
     cat tests/{errors,import}/*.txt tests/*.sh

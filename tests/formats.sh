@@ -48,6 +48,35 @@ check "render: nothing on stdout" [ ! -s "$work/out" ]
 check "render: exit 2 where a picture cannot be written" [ $? -eq 2 ]
 check "render: a failure is a notification" grep -q '"id": "cannot-write"' "$work/full.sarif"
 
+# ---- Files that cannot be read, written or found ----
+
+echo 'scene: [{sphere: {}}]' >"$work/still.yaml"; cp "$work/still.yaml" "$work/also.yaml"; echo >"$work/file"
+codes() { python3 -c 'import json, sys; print(*[d["severity"] + " " + d["code"] for d in json.load(open(sys.argv[1]))], sep="; ")' "$1"; }
+# fails CODES ARGS...: what `monge render --format json ARGS` has in its document, with exit 2 and nothing else on stderr.
+fails() {
+    (cd "$work" && "$monge" render --format json --size 8x8 "${@:2}" >"$work/out" 2>"$work/failed.json")
+    check "exit 2: render ${*:2}" [ $? -eq 2 ]
+    command -v python3 >/dev/null && check "$1: render ${*:2}" [ "$(codes "$work/failed.json")" = "$1" ]
+}
+fails 'failure no-match' 'x*.yaml' still.yaml
+check "the others are rendered" [ -s "$work/still.png" ]
+fails 'failure no-match' 'x*.yaml'
+fails 'failure cannot-read' @none
+fails 'failure cannot-make-folder' still.yaml -o file/
+fails 'failure cannot-write' still.yaml -o none/x.png
+fails 'failure cannot-write' still.yaml --stats none/x.json
+fails 'failure cannot-write' still.yaml --log none/log
+fails 'failure cannot-write' still.yaml --log /dev/full
+fails 'failure cannot-write' still.yaml --stats /dev/full
+fails 'failure no-frame; failure no-frame' still.yaml also.yaml --frames all -o '{name}-{frame}.png'
+fails 'failure outside-region' still.yaml --region 4,4,8,8
+fails 'failure limit-pixels' still.yaml --limit pixels=10
+fails 'failure no-match; failure cannot-make-folder' 'x*.yaml' still.yaml -o file/
+"$monge" check --format sarif 'x*.yaml' >"$work/match.sarif"
+check "a notification" grep -q '"id": "no-match"' "$work/match.sarif"
+"$monge" check 'x*.yaml' 2>"$work/text"
+check "a code in text as well" [ "$(cat "$work/text")" = 'monge: error[no-match]: x*.yaml: no file matches' ]
+
 # ---- Structure ----
 
 { echo 'scene:'; for i in $(seq 60); do echo "  - sphere: {x$i: 1}"; done; } >"$work/many.yaml"
@@ -121,9 +150,9 @@ def check_sarif(document):
     for n in notifications:
         check_message(n["message"])
 
-for name in ("json", "empty", "many.json", "all.json", "stdin.json", "expected.json"):
+for name in ("json", "empty", "many.json", "all.json", "stdin.json", "expected.json", "failed.json"):
     check_json(read(name))
-for name in ("many.sarif", "all.sarif", "absolute.sarif", "stdin.sarif", "full.sarif"):
+for name in ("many.sarif", "all.sarif", "absolute.sarif", "stdin.sarif", "full.sarif", "match.sarif"):
     check_sarif(read(name))
 
 many = read("many.json")

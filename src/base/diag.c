@@ -172,6 +172,7 @@ static struct diagnostic *add(struct diagnostics *diag, enum severity severity, 
     count(diag, severity);
     if (same) {
         same->load = diag->load;
+        same->taken = false;
         diag->repeated++;
         return d;
     }
@@ -229,6 +230,15 @@ void diag_related(struct diagnostics *diag, struct diagnostic *d, struct span sp
     va_start(args, format);
     append_related(diag, d, span, format_text(&diag->arena, format, args));
     va_end(args);
+}
+
+const struct diagnostic *diag_take(struct diagnostics *diag) {
+    const struct diagnostic *first = NULL;
+    for (struct diagnostic *d = diag->first; d; d = d->next) {
+        if (!first && !d->taken && d->severity != SEVERITY_WARNING) first = d;
+        d->taken = true;
+    }
+    return first;
 }
 
 /* ---- Printing ---- */

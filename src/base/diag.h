@@ -44,8 +44,8 @@ struct diagnostic {
     const char *help;    /* the smallest fix, drawn behind the caret; NULL: none */
     const char *note;    /* background in a line of its own; NULL: none */
     struct related *related;
-    unsigned load; /* which of the loads told it last */
-    bool printed;
+    unsigned load;       /* which of the loads told it last */
+    bool printed, taken; /* by diag_print_new, by diag_take */
     struct diagnostic *next;
 };
 
@@ -75,7 +75,7 @@ struct diagnostics {
 /* A load begins: as many may be kept of it as of the one before, and what that one told may be told again. */
 void diag_begin(struct diagnostics *diag);
 
-/* The last scene is loaded again, for another frame: what was told of it counts again, but is kept once. */
+/* The last scene is loaded again, for another frame or with other values: what was told of it counts again, but is kept once. */
 void diag_begin_again(struct diagnostics *diag);
 
 /* `code` is static. Each returns the diagnostic, to add help, a note or related places to; never NULL. The same
@@ -100,6 +100,9 @@ bool diag_full(const struct diagnostics *diag);
 /* How many there are that are not kept, as "and 12 more". False where there are none. */
 enum { DIAG_MORE_SIZE = 32 };
 bool diag_more(const struct diagnostics *diag, char text[DIAG_MORE_SIZE]);
+
+/* The first that is no warning of those told since the last time: what has gone wrong meanwhile; NULL: nothing. */
+const struct diagnostic *diag_take(struct diagnostics *diag);
 
 void diag_print(const struct diagnostics *diag, FILE *out);
 void diag_print_new(struct diagnostics *diag, FILE *out); /* what it has not printed yet */

@@ -34,7 +34,7 @@ bool aov_write(struct monge_scene *scene, const struct monge_settings *settings,
                const char *picture, struct report *report) {
     struct monge_layers *layers = monge_render_layers(scene, settings, region, set, job);
     const bool cancelled = job->cancel && atomic_load(job->cancel);
-    if (!layers && !cancelled) say_error("no memory for the passes of %s", picture);
+    if (!layers && !cancelled) report_failure(report, "out-of-memory", "%s: out of memory", picture);
     struct monge_diagnostics *diag = layers ? report_open(report) : NULL;
     const bool written = diag && write_layers(layers, picture, diag);
     if (diag) report_close(report, diag, !cancelled);

@@ -118,18 +118,20 @@ void asked_settings(const struct option_value *option, struct monge_settings *se
 }
 
 bool asked_region(const struct option_value *option, const char *scene, const struct monge_settings *settings,
-                  struct monge_region *region) {
+                  const struct report *report, struct monge_region *region) {
     *region = (struct monge_region){0, 0, settings->width, settings->height};
     if (!option->given) return true;
     const uint32_t *n = option->number;
     *region = (struct monge_region){n[0], n[1], n[2], n[3]};
     if ((uint64_t)n[0] + n[2] <= settings->width && (uint64_t)n[1] + n[3] <= settings->height) return true;
-    say_error("--region %s does not lie within the picture of %s, which is %ux%u", option->text, scene,
-              settings->width, settings->height);
+    report_failure(report, "outside-region",
+                   "--region %s does not lie within the picture of %s, which is %ux%u", option->text, scene,
+                   settings->width, settings->height);
     return false;
 }
 
-unsigned *asked_frames(const struct option_value *option, const char *scene, unsigned total, size_t *count) {
+unsigned *asked_frames(const struct option_value *option, const char *scene, unsigned total,
+                       const struct report *report, size_t *count) {
     const unsigned first = option->given ? option->number[0] : 1,
                    step = option->given ? option->number[2] : 1;
     const bool all = option->given && first == 1 && option->number[1] == 0, still = total == 0;
@@ -137,12 +139,14 @@ unsigned *asked_frames(const struct option_value *option, const char *scene, uns
                           : option->number[1]              ? option->number[1]
                                                            : total;
     if (option->given && still && !all) {
-        say_error("--frames %s: %s has no animation; `animation: {frames: 48}` makes one", option->text,
-                  scene);
+        report_failure(report, "no-frame",
+                       "--frames %s: %s has no animation; `animation: {frames: 48}` makes one", option->text,
+                       scene);
         return NULL;
     }
     if (option->given && !still && (first > total || last > total)) {
-        say_error("--frames %s: %s has %u frame%s", option->text, scene, total, total == 1 ? "" : "s");
+        report_failure(report, "no-frame", "--frames %s: %s has %u frame%s", option->text, scene, total,
+                       total == 1 ? "" : "s");
         return NULL;
     }
     *count = (last - first) / step + 1;

@@ -3,6 +3,7 @@
 #define MONGE_CLI_ASKED_H
 
 #include "cli/options.h"
+#include "cli/report.h"
 #include "monge.h"
 
 /* "--size 320x240 --samples 4 -D a=1 --frames 3": the options that change pixels, in the order of the table, then the
@@ -19,10 +20,11 @@ void asked_settings(const struct option_value *option, struct monge_settings *se
 
 /* The region that is asked for, or the whole picture. False, with the reason told, when it is not inside. */
 bool asked_region(const struct option_value *option, const char *scene, const struct monge_settings *settings,
-                  struct monge_region *region);
+                  const struct report *report, struct monge_region *region);
 
 /* The frames that --frames asks for, of an animation of `total`; without it the first alone. All that a still, of which
  * the total is 0, has is one. NULL, with the reason told, where they are not there. To be freed. */
-unsigned *asked_frames(const struct option_value *option, const char *scene, unsigned total, size_t *count);
+unsigned *asked_frames(const struct option_value *option, const char *scene, unsigned total,
+                       const struct report *report, size_t *count);
 
 #endif

@@ -84,7 +84,7 @@ static void *run_units(void *context) {
     struct pool *pool = context;
     for (size_t index; take_unit(pool, &index);) {
         const bool more =
-            pool->batch->jobs > 1 ? run_apart(pool, index) : pool->batch->run(pool->batch->context, index);
+            pool->batch->held ? run_apart(pool, index) : pool->batch->run(pool->batch->context, index);
         end_unit(pool, index, more);
     }
     return NULL;

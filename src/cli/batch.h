@@ -12,7 +12,8 @@
 
 struct batch {
     size_t count;
-    unsigned jobs; /* units at once, at least 1; of 1, what a unit says is not held back */
+    unsigned jobs; /* units at once, at least 1 */
+    bool held;     /* what a unit says is held back until its turn, even of one at once */
     void *context;
     bool (*run)(void *context, size_t index); /* on any thread; false: no further unit is to be begun */
     void (*ended)(void *context, size_t index,

@@ -62,6 +62,7 @@ static enum status check_scenes(struct loader *loader, bool quiet) {
 enum status check_command(const struct arguments *args) {
     struct loader loader;
     const bool good = loader_begin(&loader, args);
+    loader.serial = true;
     const enum status status =
         good ? check_scenes(&loader, args->option[OPTION_QUIET].given) : STATUS_TROUBLE;
     loader_end(&loader, good ? stdout : NULL);

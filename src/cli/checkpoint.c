@@ -349,10 +349,12 @@ uint64_t checkpoint_pixels(const struct checkpoint *checkpoint) {
     return pixels;
 }
 
-void checkpoint_close(struct checkpoint *cp, bool complete) {
+void checkpoint_close(struct checkpoint *cp, bool complete, const struct report *report) {
     if (!cp) return;
     if (cp->taken && !cp->told) say_taken(cp);
-    if (cp->trouble) say_error("cannot write the checkpoint %s: %s", cp->path, strerror(cp->trouble));
+    if (cp->trouble)
+        report_warning(report, "cannot-write", "cannot write the checkpoint %s: %s", cp->path,
+                       strerror(cp->trouble));
     if (cp->fd >= 0 && complete) unlink(cp->path);
     free_checkpoint(cp);
 }

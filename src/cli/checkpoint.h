@@ -10,6 +10,7 @@
 #ifndef MONGE_CLI_CHECKPOINT_H
 #define MONGE_CLI_CHECKPOINT_H
 
+#include "cli/report.h"
 #include "monge.h"
 
 struct checkpoint;
@@ -31,6 +32,6 @@ void checkpoint_forget(const char *output);
 
 /* Done with it, with the reason told where something could not be kept; `complete`: the picture is in its place, so
  * that the file goes. NULL is allowed. */
-void checkpoint_close(struct checkpoint *checkpoint, bool complete);
+void checkpoint_close(struct checkpoint *checkpoint, bool complete, const struct report *report);
 
 #endif

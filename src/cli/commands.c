@@ -81,7 +81,7 @@ const struct option_row OPTION_TABLE[OPTIONS] = {
     [OPTION_AOV] = {"aov", 0, VALUE_CHOICES, IN_RENDER, "object|material|depth|normal|shadow", 0, 0,
                     "write auxiliary passes beside the picture; several with commas between"},
     [OPTION_THREADS] = {"threads", 0, VALUE_WHOLE, IN_RENDER | IN_DIFF | IN_TEST, "N", 1, 1024,
-                        "threads for each picture; all processors by default"},
+                        "threads for each picture; one for each processor by default"},
     [OPTION_JOBS] = {"jobs", 'j', VALUE_WHOLE, IN_RENDER | IN_TEST, "N", 1, 256,
                      "scenes to render at once; as many as processors by default"},
     [OPTION_SKIP_UNCHANGED] = {"skip-unchanged", 0, VALUE_NONE, IN_RENDER, NULL, 0, 0,
@@ -98,8 +98,9 @@ const struct option_row OPTION_TABLE[OPTIONS] = {
                       "write times, rays and memory as JSON"},
     [OPTION_LOG] = {"log", 0, VALUE_FILE, IN_RENDER, "FILE|-", 0, 0,
                     "add a line of JSON to the file for each picture"},
-    [OPTION_PROGRESS] = {"progress", 0, VALUE_CHOICE, IN_RENDER, "auto|always|never|json", 0, 0,
-                         "show a progress bar; auto: where standard error is a terminal; json: for programs"},
+    [OPTION_PROGRESS] =
+        {"progress", 0, VALUE_CHOICE, IN_RENDER, "auto|always|never|json", 0, 0,
+         "show a progress bar; auto: where standard error is a terminal, not a dumb one; json: for programs"},
     [OPTION_FORMAT] = {"format", 0, VALUE_CHOICE, IN_RENDER | IN_CHECK, "text|json|sarif", 0, 0,
                        "how to report what is wrong: for people, or as one document for programs"},
     [OPTION_METRIC] = {"metric", 0, VALUE_CHOICES, IN_DIFF, "exact|max|mae|rmse|psnr|ssim|flip", 0, 0,
@@ -224,9 +225,10 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                      "manual.md") " tells what is in the files.",
                  "-o - is standard output.",
                  "--jobs scenes are rendered at once, each on --threads threads; messages, --log and "
-                 "--stats keep the order of the batch, and a line at the end counts what has become of "
-                 "it. What fails does not keep the others from being rendered, unless --fail-fast is "
-                 "given.",
+                 "--stats keep the order of the batch, and of more than one picture a line at the end counts "
+                 "what has become of them; what was asked for and is not there has failed. What fails does "
+                 "not "
+                 "keep the others from being rendered, unless --fail-fast is given.",
                  "--skip-unchanged leaves a picture alone that is whole and says, in its text chunks, that "
                  "this program made it of these files with these options; with --aov, its passes too. "
                  "--resume does "
@@ -246,12 +248,20 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                  "with --frames; what is wrong in others is for `monge check` to tell.",
                  "--progress json writes a line for each picture that is done and ten a second while one is "
                  "rendered: an object with done, total, rendered, unchanged, failed (pictures), part (0 to "
-                 "1), "
-                 "seconds, seconds_left (null: unknown), picture, pixels, of_pixels; --quiet is implied. "
-                 "--log "
-                 "adds a line for each picture to a file: scene, output, frame, params, status (rendered, "
-                 "unchanged, failed), and what --stats has, with hashes.",
-                 "With --format json or sarif everything that is wrong comes as one document on "
+                 "1), seconds, seconds_left (null: unknown), and running, a list of objects with scene, "
+                 "output, "
+                 "frame, pixels, of_pixels; --quiet is implied.",
+                 "--log adds a line for each picture to a file, in the order of the batch: started (when the "
+                 "run "
+                 "began), scene, output, frame, params, status (rendered, unchanged, failed), error (of a "
+                 "failed "
+                 "one: code, message, file, line, column), and what --stats has, with hashes. Lines whose "
+                 "turn has "
+                 "not come wait in .FILE.waiting beside it; after a kill the next run with this log moves "
+                 "them "
+                 "over.",
+                 "With --format json or sarif everything that is wrong, with files too, comes as one "
+                 "document on "
                  "standard error at the end, with --quiet implied; wrong usage is still told as "
                  "text. `monge help check` tells what is in it.",
                  LIMITS_TEXT},

@@ -134,7 +134,7 @@ static bool set_inputs(const struct subject *s, struct golden_case *c, struct mo
     asked_settings(option, settings);
     const char *wrong = monge_settings_check(settings);
     if (wrong) say_error("%s: %s", c->scene, wrong);
-    if (wrong || !asked_region(&option[OPTION_REGION], c->scene, settings, region) ||
+    if (wrong || !asked_region(&option[OPTION_REGION], c->scene, settings, &s->run->loader.report, region) ||
         !load_allows(&s->run->loader, c->scene, settings))
         return false;
     monge_scene_hash(s->load->scene, settings, c->now.scene);
@@ -188,7 +188,7 @@ static void run_frames(struct subject *s) {
     const unsigned total = monge_scene_frames(s->load->scene);
     struct listener listener;
     listen_begin(&listener);
-    unsigned *frames = asked_frames(option, s->scene->path, total, &count);
+    unsigned *frames = asked_frames(option, s->scene->path, total, &s->run->loader.report, &count);
     if (!frames) {
         struct golden_case *c = add_case(s);
         listen_end(&listener, c);

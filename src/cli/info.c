@@ -42,7 +42,7 @@ static enum status tell_all(struct loader *loader, bool json) {
 enum status info_command(const struct arguments *args) {
     struct loader loader;
     const bool good = loader_begin(&loader, args);
-    loader.outline = true;
+    loader.outline = loader.serial = true;
     const enum status status = good ? tell_all(&loader, args->option[OPTION_JSON].given) : STATUS_TROUBLE;
     loader_end(&loader, good ? stdout : NULL);
     return status;

@@ -13,7 +13,14 @@ bool loader_begin(struct loader *loader, const struct arguments *args) {
     return true;
 }
 
+static void close_last(struct loader *loader) {
+    if (loader->diag) report_close(&loader->report, loader->diag, false);
+    loader->diag = NULL;
+    loader->path = NULL;
+}
+
 void loader_end(struct loader *loader, FILE *out) {
+    close_last(loader);
     if (out)
         report_end(&loader->report, out);
     else
@@ -30,9 +37,20 @@ static struct monge_scene *load_path(const struct loader *loader, const char *pa
     return monge_load_memory("<stdin>", input->bytes, input->size, options, diag);
 }
 
+/* Of another combination of the same scene, those of the one before. NULL: no memory. */
+static struct monge_diagnostics *open_diagnostics(struct loader *loader, const char *path) {
+    if (!loader->serial) return report_open(&loader->report);
+    if (loader->path == path) return loader->diag;
+    close_last(loader);
+    loader->diag = report_open(&loader->report);
+    loader->path = loader->diag ? path : NULL;
+    return loader->diag;
+}
+
 struct load load_scene(struct loader *loader, const char *path, const struct monge_define *defines,
                        unsigned frame) {
-    struct load load = {.status = STATUS_TROUBLE, .diag = report_open(&loader->report)};
+    const bool again = loader->serial && loader->path == path;
+    struct load load = {.status = STATUS_TROUBLE, .diag = open_diagnostics(loader, path)};
     struct monge_diagnostics *diag = load.diag;
     if (!diag) return load;
     const struct monge_load_options options = {.limits = loader->limits.load,
@@ -40,7 +58,8 @@ struct load load_scene(struct loader *loader, const char *path, const struct mon
                                                .define_count = loader->sweep.count,
                                                .frame = frame,
                                                .untrusted = loader->untrusted,
-                                               .outline = loader->outline};
+                                               .outline = loader->outline,
+                                               .again = again};
     const unsigned errors = monge_diagnostics_errors(diag), warnings = monge_diagnostics_warnings(diag);
     const unsigned failures = monge_diagnostics_failures(diag);
     load.scene = load_path(loader, path, &options, diag);
@@ -72,12 +91,13 @@ void load_examine(struct loader *loader, struct load *load) {
 
 void load_close(struct loader *loader, struct load *load) {
     monge_scene_free(load->scene);
-    if (load->diag) report_close(&loader->report, load->diag, false);
+    if (load->diag && !loader->serial) report_close(&loader->report, load->diag, false);
 }
 
 bool load_allows(const struct loader *loader, const char *path, const struct monge_settings *settings) {
     if ((uint64_t)settings->width * settings->height <= loader->limits.pixels) return true;
-    say_error("%s: a picture of %ux%u has more than %zu pixels (the limit `pixels`)", path, settings->width,
-              settings->height, loader->limits.pixels);
+    report_failure(&loader->report, "limit-pixels",
+                   "%s: a picture of %ux%u has more than %zu pixels (the limit `pixels`)", path,
+                   settings->width, settings->height, loader->limits.pixels);
     return false;
 }

@@ -12,7 +12,10 @@ struct loader {
     struct sweep sweep;
     struct limits limits;
     bool untrusted;
-    bool outline; /* for monge info */
+    bool outline;     /* for monge info */
+    bool serial;      /* one load at a time: of a sweep through a scene, what is told again is told once */
+    const char *path; /* of the last scene, where it is so, */
+    struct monge_diagnostics *diag; /* and what there was to tell of it; owned */
     struct report report;
     struct scenes scenes;
 };
@@ -42,7 +45,7 @@ void load_examine(struct loader *loader, struct load *load);
 
 void load_close(struct loader *loader, struct load *load);
 
-/* Whether a picture of these settings keeps to the limits; if not, the reason is on stderr. */
+/* Whether a picture of these settings keeps to the limits; if not, the reason is told. */
 bool load_allows(const struct loader *loader, const char *path, const struct monge_settings *settings);
 
 #endif

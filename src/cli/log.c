@@ -2,12 +2,12 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <time.h>
 #include <unistd.h>
-
-#include "cli/say.h"
 
 /* Behind a line that a full disk has cut off, a new one begins. */
 static void end_line(int fd) {
@@ -17,17 +17,29 @@ static void end_line(int fd) {
     if (pread(fd, &last, 1, status.st_size - 1) == 1 && last != '\n') (void)!write(fd, "\n", 1);
 }
 
-bool log_open(struct log *log, const char *path) {
-    *log = (struct log){.path = path};
+static void note_start(struct log *log) {
+    struct timespec now;
+    struct tm utc;
+    char seconds[24];
+    clock_gettime(CLOCK_REALTIME, &now);
+    gmtime_r(&now.tv_sec, &utc);
+    strftime(seconds, sizeof seconds, "%Y-%m-%dT%H:%M:%S", &utc);
+    snprintf(log->started, sizeof log->started, "%s.%03dZ", seconds, (int)(now.tv_nsec / 1000000));
+}
+
+bool log_open(struct log *log, const char *path, const struct report *report) {
+    *log = (struct log){.path = path, .report = report};
     if (!path) return true;
+    note_start(log);
     log->fd = strcmp(path, "-") == 0 ? dup(STDOUT_FILENO)
                                      : open(path, O_RDWR | O_APPEND | O_CREAT | O_CLOEXEC | O_NOCTTY, 0666);
     if (log->fd < 0) log->fd = open(path, O_WRONLY | O_APPEND | O_CLOEXEC | O_NOCTTY);
     if (log->fd >= 0) {
         end_line(log->fd);
+        log_waiting_open(&log->waiting, path, log->fd);
         return true;
     }
-    say_error("cannot write %s: %s", path, strerror(errno));
+    report_failure(report, "cannot-write", "cannot write %s: %s", path, strerror(errno));
     log->path = NULL;
     return false;
 }
@@ -44,20 +56,40 @@ static bool write_all(int fd, const char *text, size_t size) {
     return true;
 }
 
-void log_picture(struct log *log, const struct picture *picture) {
+/* With its end. NULL: no memory. To be freed. */
+static char *make_line(const struct log *log, const struct picture *picture) {
     char *line = NULL;
     size_t size = 0;
-    if (!log->path) return;
     FILE *out = open_memstream(&line, &size);
-    if (out) picture_write_json(picture, out);
-    if (out) fputc('\n', out);
-    const bool good = out && fclose(out) == 0 && write_all(log->fd, line, size);
-    if (!good && !log->failed) say_error("cannot write %s: %s", log->path, strerror(errno));
-    log->failed |= !good;
+    if (!out) return NULL;
+    picture_write_json(picture, log->started, out);
+    fputc('\n', out);
+    if (fclose(out) == 0) return line;
+    free(line);
+    return NULL;
+}
+
+void log_keep(struct log *log, size_t unit, const struct picture *picture) {
+    if (!log->path || !log->waiting.path) return;
+    char *line = make_line(log, picture);
+    log_waiting_add(&log->waiting, log->fd, unit, line ? line : "\n");
     free(line);
 }
 
+void log_picture(struct log *log, const struct picture *picture) {
+    if (!log->path) return;
+    char *line = make_line(log, picture);
+    const bool good = line && write_all(log->fd, line, strlen(line));
+    if (!good && !log->failed)
+        report_failure(log->report, "cannot-write", "cannot write %s: %s", log->path, strerror(errno));
+    log->failed |= !good;
+    free(line);
+    log_waiting_take(&log->waiting);
+}
+
 bool log_close(struct log *log) {
-    if (log->path) close(log->fd);
+    if (!log->path) return true;
+    log_waiting_close(&log->waiting);
+    close(log->fd);
     return !log->failed;
 }

@@ -106,7 +106,9 @@ static const char *const files[][2] = {
     {NULL, NULL}};
 
 static const char *const environment[][2] = {
-    {"NO_COLOR", "where it is set, `monge test` uses no colours on a terminal"}, {NULL, NULL}};
+    {"NO_COLOR", "where it is set, `monge test` uses no colours on a terminal"},
+    {"TERM", "where it is `dumb`, no bar is drawn that nobody has asked for"},
+    {NULL, NULL}};
 
 void manual_print(FILE *out) {
     fprintf(out, ".TH MONGE 1 \"\" \"Monge %s\" \"User Commands\"\n.SH NAME\nmonge \\- ", monge_version());

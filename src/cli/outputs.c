@@ -252,8 +252,8 @@ static void tell_lost(struct plan *plan, const char *folder, int reason) {
     }
     pthread_mutex_unlock(&plan->lock);
     if (!told)
-        say_error("cannot make the folder %s: %s", folder,
-                  access(folder, F_OK) == 0 ? "it is a file" : strerror(reason));
+        report_failure(plan->report, "cannot-make-folder", "cannot make the folder %s: %s", folder,
+                       access(folder, F_OK) == 0 ? "it is a file" : strerror(reason));
 }
 
 /* Makes the folder before the last slash of `path`, and those above it. */
@@ -270,13 +270,13 @@ static bool make_folder(struct plan *plan, char *path) {
 }
 
 /* So that nobody waits for a picture that cannot be kept. */
-static bool check_writable(const char *path) {
+static bool check_writable(const struct report *report, const char *path) {
     if (is_stream(path) || is_special(path)) return true;
     const size_t length = folder_length(path);
     char *folder = length ? say_text("%.*s", (int)length, path) : say_text(".");
     const bool writable =
         access(folder, W_OK | X_OK) == 0 && (access(path, F_OK) != 0 || access(path, W_OK) == 0);
-    if (!writable) say_error("cannot write %s: %s", path, strerror(errno));
+    if (!writable) report_failure(report, "cannot-write", "cannot write %s: %s", path, strerror(errno));
     free(folder);
     return writable;
 }
@@ -302,7 +302,7 @@ static bool check_passes_writable(const struct plan *plan, const char *picture) 
     bool writable = true;
     for (enum monge_layer layer = 0; layer < MONGE_LAYERS && writable; layer++) {
         char *path = plan->passes >> layer & 1 ? aov_path(layer, picture) : NULL;
-        writable = !path || check_writable(path);
+        writable = !path || check_writable(plan->report, path);
         free(path);
     }
     return writable;
@@ -311,7 +311,7 @@ static bool check_passes_writable(const struct plan *plan, const char *picture) 
 bool plan_reach(struct plan *plan, const char *path) {
     char *copy = say_text("%s", path);
     const bool good = (makes_folders(plan) ? make_folder(plan, copy) : check_folder(path)) &&
-                      check_writable(path) && check_passes_writable(plan, path);
+                      check_writable(plan->report, path) && check_passes_writable(plan, path);
     free(copy);
     return good;
 }
@@ -348,13 +348,14 @@ static bool make_outputs(struct plan *plan) {
 }
 
 bool plan_begin(struct plan *plan, const struct arguments *args, const struct scenes *scenes,
-                const struct sweep *sweep) {
+                const struct sweep *sweep, const struct report *report) {
     const struct option_value *frames = &args->option[OPTION_FRAMES];
     *plan = (struct plan){
         .wanted = args->option[OPTION_OUTPUT].text,
         .stats = args->option[OPTION_STATS].text,
         .log = args->option[OPTION_LOG].text,
         .lock = PTHREAD_MUTEX_INITIALIZER,
+        .report = report,
         .sweep = sweep,
         .frames = frames->given ? frames : NULL,
         .passes = args->option[OPTION_AOV].choices,
@@ -362,7 +363,7 @@ bool plan_begin(struct plan *plan, const struct arguments *args, const struct sc
         .count = scenes->count * sweep->total,
     };
     return check_pattern(plan) && (!plan->wanted || check_extension(plan->wanted)) && make_outputs(plan) &&
-           check_streams(plan) && check_files(plan) && (!plan->stats || check_writable(plan->stats));
+           check_streams(plan) && check_files(plan) && (!plan->stats || check_writable(report, plan->stats));
 }
 
 void plan_free(struct plan *plan) {

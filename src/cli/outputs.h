@@ -18,6 +18,7 @@ struct claim;
 
 struct plan {
     const char *wanted, *stats, *log; /* the values of -o, --stats and --log; NULL: not given */
+    const struct report *report;
     const struct sweep *sweep;
     const struct scenes *scenes;
     const struct option_value *frames; /* NULL: --frames is not given */
@@ -31,9 +32,9 @@ struct plan {
 };
 
 /* Plans the outputs, and sees to it that nothing is written twice, or over a scene or the file of --stats or --log.
- * False when something is wrong, with the reason on stderr. Either way to be freed. */
+ * False when something is wrong, with the reason on stderr or, about files, in the report. Either way to be freed. */
 bool plan_begin(struct plan *plan, const struct arguments *args, const struct scenes *scenes,
-                const struct sweep *sweep);
+                const struct sweep *sweep, const struct report *report);
 void plan_free(struct plan *plan);
 
 /* Whether a picture can be written there; makes the folders that -o asks for. False: the reason has been told, that of

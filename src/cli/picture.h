@@ -2,20 +2,22 @@
 #ifndef MONGE_CLI_PICTURE_H
 #define MONGE_CLI_PICTURE_H
 
+#include "cli/report.h"
 #include "monge.h"
 
 enum outcome { PICTURE_FAILED, PICTURE_RENDERED, PICTURE_UNCHANGED /* the file was right already */ };
 
 struct picture {
     const char *scene; /* as the user knows it; "-" for the standard streams, here and in output */
-    char *output;      /* owned */
+    char *output;      /* owned; NULL: it was not known yet */
     unsigned frame;    /* 0: --frames is not given, or the scene is a still */
     const struct monge_define *defines;
     size_t define_count;
     enum outcome outcome;
     const char
         *reason; /* with --dry-run: why it would be rendered; "": nobody asked; NULL: it would not. Static */
-    /* Of a picture that was rendered: */
+    struct problem problem; /* of one that failed; owned */
+    /* Of a picture that was rendered; of one that is unchanged, the region and the hashes: */
     struct monge_settings settings;
     struct monge_region region; /* what was rendered of it: the size of the file */
     struct monge_stats stats;
@@ -26,7 +28,9 @@ struct picture {
     char pixel_hash[MONGE_HASH_SIZE]; /* "" where nobody asked */
 };
 
-/* As a JSON object in one line; README.md has its members. */
-void picture_write_json(const struct picture *picture, FILE *out);
+void picture_free(struct picture *picture);
+
+/* As a JSON object in one line; README.md has its members. started: when the run did; NULL: not to be told. */
+void picture_write_json(const struct picture *picture, const char *started, FILE *out);
 
 #endif

@@ -2,6 +2,7 @@
 
 #include <inttypes.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
@@ -12,15 +13,23 @@ enum { MAX_COLUMNS = 200, MAX_BAR = 40 };
 
 #define INTERVAL 0.1 /* seconds between two drawings, and before the first */
 
-void progress_begin(struct progress *progress, enum progress_wish wish, bool quiet, size_t units) {
+/* Carriage returns do not move what a dumb terminal has printed. */
+static bool is_seen(void) {
+    const char *terminal = getenv("TERM");
+    return isatty(STDERR_FILENO) && !(terminal && strcmp(terminal, "dumb") == 0);
+}
+
+void progress_begin(struct progress *progress, enum progress_wish wish, bool quiet, size_t units,
+                    size_t missing) {
     const double now = clock_seconds();
-    const bool seen = !quiet && isatty(STDERR_FILENO);
-    if (wish == PROGRESS_AUTO) wish = seen ? PROGRESS_ALWAYS : PROGRESS_NEVER;
+    if (wish == PROGRESS_AUTO) wish = !quiet && is_seen() ? PROGRESS_ALWAYS : PROGRESS_NEVER;
     *progress = (struct progress){.wish = wish,
                                   .lock = PTHREAD_MUTEX_INITIALIZER,
                                   .units = units,
-                                  .pictures = units,
-                                  .begun = now,
+                                  .pictures = units + missing,
+                                  .done[PICTURE_FAILED] = missing,
+                                  .start = now,
+                                  .now = now,
                                   .shown = now};
 }
 
@@ -44,10 +53,12 @@ static size_t copy_name(char *to, const char *name, size_t columns) {
 
 static void describe_left(double seconds, char *text, size_t size) {
     const unsigned long s = (unsigned long)(seconds + 0.5);
+    *text = '\0';
+    if (seconds < 0.0) return;
     if (s < 3600)
-        snprintf(text, size, "%lu:%02lu left", s / 60, s % 60);
+        snprintf(text, size, "  %lu:%02lu left", s / 60, s % 60);
     else
-        snprintf(text, size, "%lu:%02lu:%02lu left", s / 3600, s / 60 % 60, s % 60);
+        snprintf(text, size, "  %lu:%02lu:%02lu left", s / 3600, s / 60 % 60, s % 60);
 }
 
 /* One write, so that a line is never seen half drawn. Blanks cover what is left of a longer line. */
@@ -64,7 +75,7 @@ static void draw_bar(struct progress *p, const char *name, double part, double s
     char line[6 * MAX_COLUMNS] = "", tail[48], left[32];
     const size_t columns = terminal_columns();
     describe_left(seconds_left, left, sizeof left);
-    size_t tail_length = (size_t)snprintf(tail, sizeof tail, "%3d%%  %s", (int)(100.0 * part), left);
+    size_t tail_length = (size_t)snprintf(tail, sizeof tail, "%3d%%%s", (int)(100.0 * part), left);
     if (tail_length > columns) tail_length = columns;
     const size_t room = columns - tail_length;
     size_t used = copy_name(line, name, room / 2);
@@ -84,59 +95,171 @@ static void draw_bar(struct progress *p, const char *name, double part, double s
     draw(p, line, used + tail_length);
 }
 
-/* ---- The batch ---- */
+/* ---- The time that is left ---- */
+
+/* Before so many seconds there is no ground for it; or this part of the work of a single scene. */
+#define FEW_SECONDS 0.5
+#define FEW_WORK    0.05
+
+static size_t count_working(const struct progress *p) {
+    size_t count = 0;
+    for (const struct progress_unit *unit = p->first; unit; unit = unit->next) count++;
+    return count;
+}
+
+static bool is_rendering(const struct progress_unit *unit) { return unit->name != NULL; }
+
+/* The parts of a picture differ: the last half of the time counts most. */
+static void add_share(struct progress_unit *unit, double seconds) {
+    unit->seconds += seconds;
+    if (seconds <= 0.0) return;
+    const double kept = 1.0 / (1.0 + 2.0 * seconds / unit->seconds);
+    unit->recent_work *= kept;
+    unit->recent_seconds = unit->recent_seconds * kept + seconds;
+}
+
+/* Shares the time up to now among those at work. What it takes to write a picture counts as its rendering. */
+static void share_time(struct progress *p) {
+    const double now = clock_seconds();
+    const double share = p->first ? (now - p->now) / (double)count_working(p) : 0.0;
+    for (struct progress_unit *unit = p->first; unit; unit = unit->next) {
+        if (unit->work == 0.0) {
+            unit->reading += share;
+            continue;
+        }
+        add_share(unit, share);
+        p->seconds += share;
+    }
+    p->now = now;
+}
 
 static size_t count_done(const struct progress *p) {
     return p->done[PICTURE_FAILED] + p->done[PICTURE_RENDERED] + p->done[PICTURE_UNCHANGED];
 }
 
-/* Units' worth that is not done; sums of parts are never quite whole. */
-static double parts_left(const struct progress *p) {
-    const double left = (double)p->units - p->parts;
-    return left > 1e-9 ? left : 0.0;
+/* Pictures' worth of the unit that is not rendered. */
+static double pictures_left(const struct progress_unit *unit) {
+    const double left = (double)(unit->pictures - unit->done);
+    return unit->of_pixels ? left - (double)unit->pixels / (double)unit->of_pixels : left;
 }
 
-static double part_done(const struct progress *p) { return 1.0 - parts_left(p) / (double)p->units; }
-
-/* By what rendering has taken so far, which says nothing of pictures that need none. Negative: unknown. */
-static double seconds_left(const struct progress *p, double now) {
-    const double left = parts_left(p), rendered = p->parts - p->unchanged;
-    if (left == 0.0) return 0.0;
-    return rendered > 1e-9 ? (now - p->begun) * left / rendered : -1.0;
+static double mean_work(const struct progress *p) {
+    return p->known_units ? p->known_work / (double)p->known_units : 0.0;
 }
 
-static void print_json(const struct progress *p, const struct progress_unit *unit, double now) {
-    const double left = seconds_left(p, now);
+static double work_left(const struct progress *p) {
+    double work = (double)(p->units - p->begun) * mean_work(p);
+    for (const struct progress_unit *unit = p->first; unit; unit = unit->next)
+        work += unit->work > 0.0 ? pictures_left(unit) * unit->work : mean_work(p);
+    return work;
+}
+
+static double rendering_left(const struct progress *p) {
+    const double pace = p->seconds / p->worked; /* seconds for a piece of work */
+    double seconds = (double)(p->units - p->begun) * mean_work(p) * pace;
+    for (const struct progress_unit *unit = p->first; unit; unit = unit->next) {
+        const double own = unit->recent_work > 0.0 ? unit->recent_seconds / unit->recent_work : pace;
+        seconds += unit->work > 0.0 ? pictures_left(unit) * unit->work * own : mean_work(p) * pace;
+    }
+    return seconds;
+}
+
+/* Of those whose first picture has not begun, until it does. */
+static double reading_left(const struct progress *p) {
+    const double mean = p->known_units ? p->reading / (double)p->known_units : 0.0;
+    double seconds = (double)(p->units - p->begun) * mean;
+    for (const struct progress_unit *unit = p->first; unit; unit = unit->next)
+        if (unit->work == 0.0 && unit->reading < mean) seconds += mean - unit->reading;
+    return seconds;
+}
+
+double progress_seconds_left(const struct progress *p) {
+    if (count_done(p) == p->pictures) return 0.0;
+    const double part = p->worked / (p->worked + work_left(p));
+    const bool enough = p->now - p->start >= FEW_SECONDS || (p->units == 1 && part >= FEW_WORK);
+    return p->worked > 0.0 && enough ? rendering_left(p) + reading_left(p) : -1.0;
+}
+
+/* Of the time; as long as that is not known, of the work. */
+static double part_done(const struct progress *p, double seconds_left) {
+    const double seconds = p->now - p->start;
+    if (seconds_left == 0.0) return 1.0;
+    if (seconds_left > 0.0) return seconds / (seconds + seconds_left);
+    return p->worked > 0.0 ? p->worked / (p->worked + work_left(p)) : 0.0;
+}
+
+/* ---- The batch ---- */
+
+static void print_running(const struct progress_unit *unit) {
+    fputs("{\"scene\": ", stderr);
+    monge_write_json_string(unit->picture->scene, stderr);
+    fputs(", \"output\": ", stderr);
+    monge_write_json_string(unit->picture->output, stderr);
+    if (unit->picture->frame) fprintf(stderr, ", \"frame\": %u", unit->picture->frame);
+    fprintf(stderr, ", \"pixels\": %" PRIu64 ", \"of_pixels\": %" PRIu64 "}", unit->pixels, unit->of_pixels);
+}
+
+static void print_json(const struct progress *p, double left) {
     flockfile(stderr); /* in one piece, whatever other threads say */
     fprintf(stderr, "{\"done\": %zu, \"total\": %zu, \"rendered\": %zu, \"unchanged\": %zu, \"failed\": %zu",
             count_done(p), p->pictures, p->done[PICTURE_RENDERED], p->done[PICTURE_UNCHANGED],
             p->done[PICTURE_FAILED]);
-    fprintf(stderr, ", \"part\": %.4f, \"seconds\": %.3f, \"seconds_left\": ", part_done(p), now - p->begun);
+    fprintf(stderr, ", \"part\": %.4f, \"seconds\": %.3f, \"seconds_left\": ", part_done(p, left),
+            p->now - p->start);
     fprintf(stderr, left < 0.0 ? "null" : "%.3f", left);
-    if (unit && unit->name) {
-        fputs(", \"picture\": ", stderr);
-        monge_write_json_string(unit->name, stderr);
-        fprintf(stderr, ", \"pixels\": %" PRIu64 ", \"of_pixels\": %" PRIu64, unit->pixels, unit->of_pixels);
+    fputs(", \"running\": [", stderr);
+    bool any = false;
+    for (const struct progress_unit *unit = p->first; unit; unit = unit->next) {
+        if (!is_rendering(unit)) continue;
+        fputs(any ? ", " : "", stderr);
+        print_running(unit);
+        any = true;
     }
-    fputs("}\n", stderr);
+    fputs("]}\n", stderr);
     funlockfile(stderr);
 }
 
-static void show(struct progress *p, const struct progress_unit *unit, double now) {
-    char counts[64];
-    p->shown = now;
-    if (p->wish == PROGRESS_JSON) {
-        print_json(p, unit, now);
-        return;
-    }
-    const double left = seconds_left(p, now);
-    snprintf(counts, sizeof counts, "%zu of %zu pictures", count_done(p), p->pictures);
-    if (left >= 0.0) draw_bar(p, p->pictures > 1 ? counts : unit->name, part_done(p), left);
+/* Of several at work, the first one that began. */
+static const char *name_at_work(const struct progress *p) {
+    for (const struct progress_unit *unit = p->first; unit; unit = unit->next)
+        if (unit->name) return unit->name;
+    return "";
 }
 
-static double unit_part(const struct progress_unit *unit) {
-    const double picture = unit->of_pixels ? (double)unit->pixels / (double)unit->of_pixels : 0.0;
-    return ((double)unit->done + picture) / (double)unit->pictures;
+static void show(struct progress *p) {
+    char title[8 * MAX_COLUMNS];
+    const double left = progress_seconds_left(p);
+    p->shown = p->now;
+    if (p->wish == PROGRESS_JSON) {
+        print_json(p, left);
+        return;
+    }
+    if (p->pictures > 1)
+        snprintf(title, sizeof title, "%zu of %zu pictures  %s", count_done(p), p->pictures, name_at_work(p));
+    else
+        snprintf(title, sizeof title, "%s", name_at_work(p));
+    draw_bar(p, title, part_done(p, left), left);
+}
+
+void progress_unit_begin(struct progress_unit *unit, struct progress *progress) {
+    *unit = (struct progress_unit){.progress = progress, .pictures = 1};
+    pthread_mutex_lock(&progress->lock);
+    share_time(progress);
+    struct progress_unit **at = &progress->first;
+    while (*at) at = &(*at)->next;
+    *at = unit;
+    progress->begun++;
+    pthread_mutex_unlock(&progress->lock);
+}
+
+void progress_unit_end(struct progress_unit *unit) {
+    struct progress *p = unit->progress;
+    pthread_mutex_lock(&p->lock);
+    share_time(p);
+    struct progress_unit **at = &p->first;
+    while (*at != unit) at = &(*at)->next;
+    *at = unit->next;
+    pthread_mutex_unlock(&p->lock);
 }
 
 void progress_pictures(struct progress_unit *unit, size_t pictures) {
@@ -147,38 +270,65 @@ void progress_pictures(struct progress_unit *unit, size_t pictures) {
     pthread_mutex_unlock(&p->lock);
 }
 
-void progress_picture(struct progress_unit *unit, const char *name) {
-    pthread_mutex_lock(&unit->progress->lock);
+void progress_picture(struct progress_unit *unit, const char *name, const struct picture *picture,
+                      uint64_t known) {
+    struct progress *p = unit->progress;
+    const uint64_t pixels = (uint64_t)picture->region.width * picture->region.height;
+    pthread_mutex_lock(&p->lock);
+    share_time(p);
+    p->known_units += unit->work == 0.0;
+    p->reading += unit->work == 0.0 ? unit->reading : 0.0;
+    p->known_work -= (double)unit->pictures * unit->work;
+    unit->work = (double)pixels * picture->settings.samples;
+    p->known_work += (double)unit->pictures * unit->work;
     unit->name = name;
-    pthread_mutex_unlock(&unit->progress->lock);
+    unit->picture = picture;
+    unit->pixels = 0;
+    unit->of_pixels = pixels;
+    unit->known = known;
+    pthread_mutex_unlock(&p->lock);
 }
 
-static void move(struct progress_unit *unit, size_t done, uint64_t pixels, uint64_t of_pixels) {
-    const double before = unit_part(unit);
-    unit->done = done;
-    unit->pixels = pixels;
-    unit->of_pixels = of_pixels;
-    unit->progress->parts += unit_part(unit) - before;
+/* Pixels that were there before are no work, and they come first. */
+static uint64_t pixels_made(const struct progress_unit *unit, uint64_t done) {
+    return done > unit->known ? done - unit->known : 0;
+}
+
+static void move(struct progress_unit *unit, uint64_t done) {
+    const uint64_t made = pixels_made(unit, done) - pixels_made(unit, unit->pixels);
+    const double work = unit->work * (double)made / (double)unit->of_pixels;
+    unit->pixels = done;
+    unit->recent_work += work;
+    unit->progress->worked += work;
 }
 
 void progress_update(void *context, uint64_t done, uint64_t total) {
     struct progress_unit *unit = context;
     struct progress *p = unit->progress;
-    const double now = clock_seconds();
+    (void)total;
     pthread_mutex_lock(&p->lock);
-    move(unit, unit->done, done, total);
-    if (p->wish != PROGRESS_NEVER && done > 0 && now - p->shown >= INTERVAL) show(p, unit, now);
+    share_time(p);
+    if (done > unit->pixels) move(unit, done);
+    if (p->wish != PROGRESS_NEVER && done > 0 && p->now - p->shown >= INTERVAL) show(p);
     pthread_mutex_unlock(&p->lock);
+}
+
+void progress_rendered(struct progress_unit *unit) {
+    pthread_mutex_lock(&unit->progress->lock);
+    share_time(unit->progress);
+    unit->name = NULL;
+    pthread_mutex_unlock(&unit->progress->lock);
 }
 
 void progress_done(struct progress_unit *unit, enum outcome outcome) {
     struct progress *p = unit->progress;
     pthread_mutex_lock(&p->lock);
+    share_time(p);
+    if (outcome == PICTURE_RENDERED) move(unit, unit->of_pixels); /* not every tile is told of */
     p->done[outcome]++;
-    if (outcome != PICTURE_RENDERED) p->unchanged += 1.0 / (double)unit->pictures;
-    move(unit, unit->done + 1, 0, 0);
-    if (p->wish == PROGRESS_JSON) show(p, unit, clock_seconds());
-    unit->name = NULL;
+    unit->done++;
+    unit->pixels = unit->of_pixels = 0;
+    if (p->wish == PROGRESS_JSON) show(p);
     pthread_mutex_unlock(&p->lock);
 }
 

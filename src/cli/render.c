@@ -25,60 +25,73 @@ static struct picture *add_picture(struct unit *unit, const char *path, unsigned
     }
     unit->pictures = pictures;
     pictures[unit->count] = (struct picture){.scene = unit->output->scene,
-                                             .output = say_text("%s", path),
+                                             .output = path ? say_text("%s", path) : NULL,
                                              .frame = frame,
                                              .defines = unit->output->defines,
                                              .define_count = unit->work->loader.sweep.count};
     return &pictures[unit->count++];
 }
 
+/* The last one is none yet. */
+static void drop_picture(struct unit *unit) { picture_free(&unit->pictures[--unit->count]); }
+
 /* The last picture of the unit is done. What a signal has cut short is no failure: it is as if it had not been begun. */
 static enum status end_picture(struct unit *unit, enum status status) {
-    if (unit->pictures[unit->count - 1].outcome == PICTURE_FAILED && interrupt_pending()) {
-        free(unit->pictures[--unit->count].output);
+    struct work *work = unit->work;
+    struct picture *picture = &unit->pictures[unit->count - 1];
+    const bool failed = picture->outcome == PICTURE_FAILED, stopped = failed && interrupt_pending();
+    if (failed && !stopped)
+        picture->problem = unit->problem;
+    else
+        problem_free(&unit->problem);
+    unit->problem = (struct problem){0};
+    if (stopped) {
+        drop_picture(unit);
         return status;
     }
-    progress_done(&unit->progress, unit->pictures[unit->count - 1].outcome);
+    log_keep(&work->log, (size_t)(unit - work->units), picture);
+    progress_done(&unit->progress, picture->outcome);
     return status;
 }
 
-/* The picture that there is no picture of. */
+/* The picture that there is no picture of; with --frames nobody knows yet where it would have gone. */
 static enum status fail_output(struct unit *unit, enum status status) {
-    add_picture(unit, unit->output->path, 0);
+    add_picture(unit, unit->work->plan.frames ? NULL : unit->output->path, 0);
     return end_picture(unit, status);
 }
 
 /* NULL where it is asked for, and right, that the picture stays as it is; else why not, "" being that nobody asked. */
-static const char *reason_to_render(const struct unit *unit, const char *path, unsigned frame) {
+static const char *reason_to_render(const struct unit *unit, struct picture *picture) {
     const struct work *work = unit->work;
     const struct output *output = unit->output;
     if (!work_wants(work, OPTION_SKIP_UNCHANGED) && !work_wants(work, OPTION_RESUME)) return "";
-    char *asked = asked_text(work->args.option, output->defines, work->loader.sweep.count, frame);
-    const char *reason =
-        unchanged_reason(path, output->scene, asked, work->plan.passes, &work->loader.limits.load);
+    char *asked = asked_text(work->args.option, output->defines, work->loader.sweep.count, picture->frame);
+    const char *reason = unchanged_reason(picture, asked, work->plan.passes, &work->loader.limits.load);
     free(asked);
     return reason;
 }
 
-static bool is_unchanged(const struct unit *unit, const char *path, unsigned frame) {
+static bool is_unchanged(const struct unit *unit, struct picture *picture) {
     const struct work *work = unit->work;
-    if (reason_to_render(unit, path, frame)) return false;
-    checkpoint_forget(path);
-    if (!work_wants(work, OPTION_QUIET)) say_note("unchanged %s", path);
+    if (reason_to_render(unit, picture)) return false;
+    picture->outcome = PICTURE_UNCHANGED;
+    checkpoint_forget(picture->output);
+    if (!work_wants(work, OPTION_QUIET)) say_note("unchanged %s", picture->output);
     return true;
 }
 
 /* ---- What would be rendered ---- */
 
 /* Of the last picture. */
-static enum status foresee(struct unit *unit, unsigned frame) {
+static enum status foresee(struct unit *unit) {
     struct picture *picture = &unit->pictures[unit->count - 1];
     const char *scene = picture->scene;
     if (strcmp(scene, "-") != 0 && access(scene, R_OK) != 0) {
-        say_error("cannot read %s: %s", scene, strerror(errno));
+        report_failure(&unit->work->loader.report, "cannot-read", "cannot read %s: %s", scene,
+                       strerror(errno));
         return STATUS_TROUBLE;
     }
-    picture->reason = reason_to_render(unit, picture->output, frame);
+    picture->reason = reason_to_render(unit, picture);
     picture->outcome = picture->reason ? PICTURE_RENDERED : PICTURE_UNCHANGED;
     return STATUS_YES;
 }
@@ -102,12 +115,9 @@ static enum status render_frame(struct unit *unit, struct load *load, unsigned f
                                 double begun) {
     struct work *work = unit->work;
     struct picture *picture = &unit->pictures[unit->count - 1];
-    if (work_wants(work, OPTION_DRY_RUN)) return foresee(unit, frame);
+    if (work_wants(work, OPTION_DRY_RUN)) return foresee(unit);
     if (work->plan.frames && !plan_reach(&work->plan, picture->output)) return STATUS_TROUBLE;
-    if (work->plan.frames && is_unchanged(unit, picture->output, frame)) {
-        picture->outcome = PICTURE_UNCHANGED;
-        return STATUS_YES;
-    }
+    if (work->plan.frames && is_unchanged(unit, picture)) return STATUS_YES;
     const enum status status = frame == *at ? STATUS_YES : load_frame(&unit->work->loader, load, frame);
     if (status == STATUS_YES) {
         *at = frame;
@@ -137,7 +147,8 @@ static enum status render_load(struct unit *unit, struct load *load, double begu
     struct work *work = unit->work;
     size_t count = 0;
     const unsigned total = monge_scene_frames(load->scene);
-    unsigned *frames = asked_frames(&work->args.option[OPTION_FRAMES], unit->output->scene, total, &count);
+    unsigned *frames = asked_frames(&work->args.option[OPTION_FRAMES], unit->output->scene, total,
+                                    &work->loader.report, &count);
     char **paths = frames ? plan_frames(&work->plan, unit->output, frames, count, total) : NULL;
     const enum status status =
         paths ? render_frames(unit, load, frames, paths, count, begun) : fail_output(unit, STATUS_TROUBLE);
@@ -151,16 +162,18 @@ static enum status render_load(struct unit *unit, struct load *load, double begu
 /* Without --frames, all that can be known before the scene is loaded: that its picture cannot be written, or need
  * not be. For a scene that is not there no folder is made. */
 static bool is_settled(struct unit *unit, enum status *status) {
-    const char *path = unit->output->path, *scene = unit->output->scene;
+    const char *scene = unit->output->scene;
     if (unit->work->plan.frames || (strcmp(scene, "-") != 0 && access(scene, F_OK) != 0)) return false;
+    struct picture *picture = add_picture(unit, unit->output->path, 0);
     if (work_wants(unit->work, OPTION_DRY_RUN)) {
-        add_picture(unit, path, 0);
-        *status = end_picture(unit, foresee(unit, 0));
+        *status = end_picture(unit, foresee(unit));
         return true;
     }
-    const bool reached = plan_reach(&unit->work->plan, path);
-    if (reached && !is_unchanged(unit, path, 0)) return false;
-    add_picture(unit, path, 0)->outcome = reached ? PICTURE_UNCHANGED : PICTURE_FAILED;
+    const bool reached = plan_reach(&unit->work->plan, picture->output);
+    if (reached && !is_unchanged(unit, picture)) {
+        drop_picture(unit);
+        return false;
+    }
     *status = end_picture(unit, reached ? STATUS_YES : STATUS_TROUBLE);
     return true;
 }
@@ -184,16 +197,39 @@ static bool run_unit(void *context, size_t index) {
     struct work *work = context;
     struct unit *unit = &work->units[index];
     *unit = (struct unit){.work = work, .output = &work->plan.outputs[index]};
-    unit->progress = (struct progress_unit){.progress = &work->progress, .pictures = 1};
+    progress_unit_begin(&unit->progress, &work->progress);
+    report_watch(&unit->problem);
     unit->status = render_output(unit);
+    report_watch(NULL);
+    progress_unit_end(&unit->progress);
     return unit->status == STATUS_YES || !work_wants(work, OPTION_FAIL_FAST);
+}
+
+static void tell_repeated(struct work *work) {
+    if (work->repeated > 0)
+        say_note("%s: the same for %zu more combination%s", work->scene, work->repeated,
+                 work->repeated == 1 ? "" : "s");
+    work->repeated = 0;
+}
+
+/* What each combination of a broken scene says again is told once. */
+static void tell(struct work *work, const struct unit *unit, const char *said) {
+    const bool again = unit->status != STATUS_YES && *said && work->said &&
+                       work->scene == unit->output->scene && strcmp(work->said, said) == 0;
+    work->repeated += again;
+    if (again) return;
+    if (*said) progress_hide(&work->progress);
+    tell_repeated(work);
+    fputs(said, stderr);
+    free(work->said);
+    work->said = say_text("%s", said);
+    work->scene = unit->output->scene;
 }
 
 static void end_unit(void *context, size_t index, const char *said) {
     struct work *work = context;
     const struct unit *unit = &work->units[index];
-    if (*said) progress_hide(&work->progress);
-    fputs(said, stderr);
+    tell(work, unit, said);
     if (work_wants(work, OPTION_DRY_RUN) && !work_wants(work, OPTION_QUIET)) tell_foreseen(unit);
     for (size_t i = 0; i < unit->count; i++) {
         work->outcomes[unit->pictures[i].outcome]++;
@@ -218,19 +254,27 @@ static void list_failures(const struct work *work) {
     for (size_t i = 0; i < work->begun; i++)
         for (size_t k = 0; k < work->units[i].count; k++) {
             const struct picture *p = &work->units[i].pictures[k];
-            if (p->outcome == PICTURE_FAILED)
+            if (p->outcome != PICTURE_FAILED) continue;
+            if (p->output)
                 say_note("failed %s  from %s", p->output, work->units[i].output->title);
+            else
+                say_note("failed %s", work->units[i].output->title);
         }
+}
+
+/* With what was asked for and is not there. */
+static size_t count_lost(const struct work *work) {
+    return work->outcomes[PICTURE_FAILED] + work->loader.scenes.missing;
 }
 
 static size_t count_pictures(const struct work *work) {
     const size_t *n = work->outcomes;
-    return n[PICTURE_RENDERED] + n[PICTURE_UNCHANGED] + n[PICTURE_FAILED];
+    return n[PICTURE_RENDERED] + n[PICTURE_UNCHANGED] + count_lost(work);
 }
 
 /* Of those that are not rendered: ", 3 unchanged, 1 failed". To be freed. */
 static char *count_others(const struct work *work) {
-    const size_t unchanged = work->outcomes[PICTURE_UNCHANGED], failed = work->outcomes[PICTURE_FAILED];
+    const size_t unchanged = work->outcomes[PICTURE_UNCHANGED], failed = count_lost(work);
     char *first = unchanged ? say_text(", %zu unchanged", unchanged) : say_text("%s", "");
     char *both = failed ? say_text("%s, %zu failed", first, failed) : say_text("%s", first);
     free(first);
@@ -239,15 +283,14 @@ static char *count_others(const struct work *work) {
 
 static void summarize(const struct work *work) {
     const size_t *n = work->outcomes, left = work->plan.count - work->begun, all = count_pictures(work);
-    const bool wanted = all > FEW || (all + left > 1 && n[PICTURE_RENDERED] < all + left);
-    if (!wanted || work_wants(work, OPTION_QUIET)) return;
+    if (all + left < 2 || work_wants(work, OPTION_QUIET)) return;
+    if (all > FEW) list_failures(work);
     char *others = count_others(work);
     char *rest = left ? say_text(", %zu not begun", left) : say_text("%s", "");
     say_note("%zu %srendered%s%s", n[PICTURE_RENDERED], work_wants(work, OPTION_DRY_RUN) ? "would be " : "",
              others, rest);
     free(rest);
     free(others);
-    if (all > FEW) list_failures(work);
 }
 
 /* How the rest is made of a batch that a signal has stopped; "" where it must begin anew. */
@@ -273,7 +316,7 @@ static bool write_stats(const struct work *work, const char *path) {
     for (size_t i = 0; all && i < work->begun; i++)
         for (size_t k = 0; k < work->units[i].count; k++) *to++ = work->units[i].pictures[k];
     if (!all) say_error("out of memory");
-    const bool written = all && stats_write(path, all, count);
+    const bool written = all && stats_write(path, all, count, &work->loader.report);
     free(all);
     return written;
 }
@@ -282,13 +325,16 @@ static bool write_stats(const struct work *work, const char *path) {
 
 static enum status render_all(struct work *work) {
     const struct option_value *option = work->args.option;
-    const struct batch batch = {work->plan.count, choose_jobs(work), work, run_unit, end_unit};
+    const unsigned jobs = choose_jobs(work);
+    const bool held = jobs > 1 || work->loader.sweep.total > 1;
+    const struct batch batch = {work->plan.count, jobs, held, work, run_unit, end_unit};
     work->worst = work->loader.scenes.status;
     const bool dry = option[OPTION_DRY_RUN].given;
     progress_begin(&work->progress, dry ? PROGRESS_NEVER : (enum progress_wish)option[OPTION_PROGRESS].choice,
-                   option[OPTION_QUIET].given, work->plan.count);
+                   option[OPTION_QUIET].given, work->plan.count, work->loader.scenes.missing);
     work->begun = batch_run(&batch);
     progress_end(&work->progress);
+    tell_repeated(work);
     if (interrupt_pending() && count_pictures(work) < work->progress.pictures)
         tell_interrupted(work);
     else
@@ -301,13 +347,15 @@ static enum status render_all(struct work *work) {
 static bool work_begin(struct work *work, const struct arguments *args) {
     *work = (struct work){.args = *args};
     if (!loader_begin(&work->loader, args) ||
-        !plan_begin(&work->plan, args, &work->loader.scenes, &work->loader.sweep) ||
-        !log_open(&work->log, args->option[OPTION_DRY_RUN].given ? NULL : args->option[OPTION_LOG].text))
+        !plan_begin(&work->plan, args, &work->loader.scenes, &work->loader.sweep, &work->loader.report) ||
+        !log_open(&work->log, args->option[OPTION_DRY_RUN].given ? NULL : args->option[OPTION_LOG].text,
+                  &work->loader.report))
         return false;
     /* a document on stderr must be alone there: the notes are left out */
     if (work->loader.report.format != MONGE_FORMAT_TEXT ||
         args->option[OPTION_PROGRESS].choice == PROGRESS_JSON)
         work->args.option[OPTION_QUIET].given = true;
+    work->loader.serial = work->loader.report.format != MONGE_FORMAT_TEXT; /* see choose_jobs */
     work->units = calloc(work->plan.count + 1, sizeof *work->units);
     if (!work->units) say_error("out of memory");
     return work->units != NULL;
@@ -315,12 +363,13 @@ static bool work_begin(struct work *work, const struct arguments *args) {
 
 static void work_end(struct work *work, bool begun) {
     for (size_t i = 0; i < work->begun; i++) {
-        for (size_t k = 0; k < work->units[i].count; k++) free(work->units[i].pictures[k].output);
+        for (size_t k = 0; k < work->units[i].count; k++) picture_free(&work->units[i].pictures[k]);
         free(work->units[i].pictures);
     }
     free(work->units);
+    free(work->said);
     plan_free(&work->plan);
-    loader_end(&work->loader, begun ? stderr : NULL);
+    loader_end(&work->loader, begun || report_has_failures(&work->loader.report) ? stderr : NULL);
 }
 
 static bool contradicts(const struct arguments *args, enum option_id a, enum option_id b) {

@@ -24,7 +24,8 @@ static enum status choose_settings(const struct unit *unit, const struct load *l
     asked_settings(option, &picture->settings);
     const char *wrong = monge_settings_check(&picture->settings);
     if (wrong) say_error("%s: %s", scene, wrong);
-    if (wrong || !asked_region(&option[OPTION_REGION], scene, &picture->settings, &picture->region))
+    if (wrong || !asked_region(&option[OPTION_REGION], scene, &picture->settings, &unit->work->loader.report,
+                               &picture->region))
         return STATUS_TROUBLE;
     if (load_allows(&unit->work->loader, scene, &picture->settings)) return STATUS_YES;
     return option[OPTION_SIZE].given ? STATUS_TROUBLE : STATUS_NO;
@@ -72,10 +73,10 @@ static struct monge_film *render_film(struct unit *unit, const struct load *load
                                   .diag = load->diag,
                                   .tiles = checkpoint ? checkpoint_tiles(checkpoint) : NULL,
                                   .options = asked};
-    progress_picture(&unit->progress, title);
+    progress_picture(&unit->progress, title, picture, checkpoint ? checkpoint_pixels(checkpoint) : 0);
     struct monge_film *film =
         monge_render(load->scene, &picture->settings, &picture->region, &job, &picture->stats);
-    progress_picture(&unit->progress, unit->output->name);
+    progress_rendered(&unit->progress);
     progress_hide(&unit->work->progress);
     free(title);
     free(asked);
@@ -83,7 +84,7 @@ static struct monge_film *render_film(struct unit *unit, const struct load *load
     const bool wrong = monge_diagnostics_errors(load->diag) != errors;
     *status = wrong ? STATUS_NO : STATUS_TROUBLE;
     if (!wrong && !interrupt_pending())
-        say_error("no memory for a picture of %ux%u", picture->region.width, picture->region.height);
+        report_failure(&unit->work->loader.report, "out-of-memory", "%s: out of memory", picture->output);
     return NULL;
 }
 
@@ -152,7 +153,7 @@ static enum status render_scene(struct unit *unit, const struct load *load, stru
     picture->write_seconds = clock_seconds() - rendered;
     picture->peak_memory_bytes = stats_peak_memory();
     if (film) note_hashes(unit, film, picture);
-    checkpoint_close(checkpoint, picture->outcome == PICTURE_RENDERED);
+    checkpoint_close(checkpoint, picture->outcome == PICTURE_RENDERED, &unit->work->loader.report);
     if (picture->outcome == PICTURE_RENDERED && is_file(picture->output)) checkpoint_forget(picture->output);
     monge_film_free(film);
     return status;
@@ -164,8 +165,7 @@ enum status render_picture(struct unit *unit, struct load *load, double begun) {
     const bool built = monge_scene_prepare(load->scene);
     const double prepared = clock_seconds();
     if (!built)
-        say_error("%s: no memory for %zu primitives", unit->output->scene,
-                  monge_scene_primitives(load->scene));
+        report_failure(&unit->work->loader.report, "out-of-memory", "%s: out of memory", unit->output->scene);
     if (built) load_examine(&unit->work->loader, load);
     const enum status status = built ? render_scene(unit, load, picture) : STATUS_TROUBLE;
     picture->primitives = monge_scene_primitives(load->scene);

@@ -1,6 +1,30 @@
 #include "cli/report.h"
 
+#include <stdarg.h>
+#include <stdlib.h>
+
 #include "cli/say.h"
+
+/* ---- What goes wrong first ---- */
+
+static _Thread_local struct problem *watched;
+
+void report_watch(struct problem *problem) { watched = problem; }
+
+static void note(struct monge_diagnostics *diag) {
+    struct monge_problem first;
+    if (!monge_diagnostics_take(diag, &first) || !watched || watched->code) return;
+    *watched = (struct problem){say_text("%s", first.code), say_text("%s", first.message),
+                                first.file ? say_text("%s", first.file) : NULL, first.line, first.column};
+}
+
+void problem_free(struct problem *problem) {
+    free(problem->code);
+    free(problem->message);
+    free(problem->file);
+}
+
+/* ---- The report ---- */
 
 static struct monge_diagnostics *new_diagnostics(void) {
     struct monge_diagnostics *diag = monge_diagnostics_new();
@@ -15,18 +39,46 @@ bool report_begin(struct report *report, const struct arguments *args) {
     return report->all != NULL;
 }
 
-struct monge_diagnostics *report_open(struct report *report) {
+struct monge_diagnostics *report_open(const struct report *report) {
     return report->all ? report->all : new_diagnostics();
 }
 
 void report_show(const struct report *report, struct monge_diagnostics *diag) {
+    note(diag);
     if (diag != report->all) monge_diagnostics_print_new(diag, say_stream());
 }
 
-void report_close(struct report *report, struct monge_diagnostics *diag, bool wanted) {
-    if (diag == report->all) return;
+void report_close(const struct report *report, struct monge_diagnostics *diag, bool wanted) {
     if (wanted) report_show(report, diag);
-    monge_diagnostics_free(diag);
+    if (diag != report->all) monge_diagnostics_free(diag);
+}
+
+static void tell(const struct report *report,
+                 void add(struct monge_diagnostics *, const char *, const char *), const char *code,
+                 const char *format, va_list args) {
+    struct monge_diagnostics *diag = report_open(report);
+    char *message = say_text_list(format, args);
+    if (diag) add(diag, code, message);
+    if (diag) report_close(report, diag, true);
+    free(message);
+}
+
+void report_failure(const struct report *report, const char *code, const char *format, ...) {
+    va_list args;
+    va_start(args, format);
+    tell(report, monge_diagnostics_fail, code, format, args);
+    va_end(args);
+}
+
+void report_warning(const struct report *report, const char *code, const char *format, ...) {
+    va_list args;
+    va_start(args, format);
+    tell(report, monge_diagnostics_warn, code, format, args);
+    va_end(args);
+}
+
+bool report_has_failures(const struct report *report) {
+    return report->all && monge_diagnostics_failures(report->all) > 0;
 }
 
 void report_end(struct report *report, FILE *out) {

@@ -16,13 +16,32 @@ bool report_begin(struct report *report, const struct arguments *args);
 
 /* Where to collect the next diagnostics, behind those that may be there already. NULL, with the reason on
  * stderr, when there is no memory. */
-struct monge_diagnostics *report_open(struct report *report);
+struct monge_diagnostics *report_open(const struct report *report);
+
+/* What has gone wrong first while something was made; zeroed: nothing. */
+struct problem {
+    char *code, *message, *file; /* owned; file NULL: it has no place */
+    unsigned line, column;       /* from 1 */
+};
+
+/* What goes wrong first from now on, on this thread, is noted there; NULL: no longer. */
+void report_watch(struct problem *problem);
+void problem_free(struct problem *problem);
+
+/* Tells of a failure, or a warning, of a code in grammar/diagnostics.yaml. */
+void report_failure(const struct report *report, const char *code, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+void report_warning(const struct report *report, const char *code, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+/* Whether a document has failures to tell, without which it would not be known why the program ends. */
+bool report_has_failures(const struct report *report);
 
 /* Prints text that is new in it. */
 void report_show(const struct report *report, struct monge_diagnostics *diag);
 
 /* Done with what report_open returned: new text is printed, where it is wanted, and all forgotten. */
-void report_close(struct report *report, struct monge_diagnostics *diag, bool wanted);
+void report_close(const struct report *report, struct monge_diagnostics *diag, bool wanted);
 
 /* Writes the document, where there is one, to `out`. */
 void report_end(struct report *report, FILE *out);

@@ -14,7 +14,7 @@ static _Thread_local FILE *diverted;
 FILE *say_stream(void) { return diverted ? diverted : stderr; }
 void say_divert(FILE *stream) { diverted = stream; }
 
-static char *format_text(const char *format, va_list args) {
+char *say_text_list(const char *format, va_list args) {
     char *text = NULL;
     if (vasprintf(&text, format, args) >= 0) return text;
     fputs("monge: out of memory\n", stderr);
@@ -22,7 +22,7 @@ static char *format_text(const char *format, va_list args) {
 }
 
 static void print_line(FILE *out, const char *prefix, const char *format, va_list args) {
-    char *text = format_text(format, args);
+    char *text = say_text_list(format, args);
     for (char *c = text; *c; c++)
         if ((unsigned char)*c < 0x20 || *c == 0x7f) *c = '?';
     fprintf(out, "%s%s\n", prefix, text);
@@ -64,7 +64,7 @@ void say_line(FILE *out, const char *format, ...) {
 char *say_text(const char *format, ...) {
     va_list args;
     va_start(args, format);
-    char *text = format_text(format, args);
+    char *text = say_text_list(format, args);
     va_end(args);
     return text;
 }

@@ -2,6 +2,7 @@
 #ifndef MONGE_CLI_SAY_H
 #define MONGE_CLI_SAY_H
 
+#include <stdarg.h>
 #include <stdio.h>
 
 #include "cli/commands.h"
@@ -24,6 +25,8 @@ void say_line(FILE *out, const char *format, ...) __attribute__((format(printf, 
 
 /* As asprintf; ends the program where there is no memory. To be freed. */
 char *say_text(const char *format, ...) __attribute__((format(printf, 1, 2)));
+
+char *say_text_list(const char *format, va_list args);
 
 /* Before all else: a stream that was closed must not become a file that is opened later. */
 void streams_open(void);

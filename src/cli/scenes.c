@@ -45,9 +45,15 @@ static bool is_link(const char *path) {
 
 /* ---- What is wrong ---- */
 
-static void report_trouble(struct search *search, const char *path, const char *what) {
-    say_error("%s: %s", path, what);
+/* An operand, or a line of a list, stands for nothing. */
+static void fail_operand(struct search *search) {
     search->scenes->status = STATUS_TROUBLE;
+    search->scenes->missing++;
+}
+
+static void report_trouble(struct search *search, const char *path, const char *what) {
+    report_failure(search->report, "no-match", "%s: %s", path, what);
+    fail_operand(search);
 }
 
 static void *no_memory(void) {
@@ -115,7 +121,10 @@ static void walk_entry(struct search *search, const char *path, size_t below) {
 
 static void walk(struct search *search, const char *folder, size_t below) {
     char **names = folder_names(folder);
-    if (!names) report_trouble(search, folder, strerror(errno));
+    if (!names) {
+        report_failure(search->report, "cannot-read", "cannot read %s: %s", folder, strerror(errno));
+        fail_operand(search);
+    }
     for (char **name = names; name && *name; name++) {
         char *path = say_text("%s%s%s", folder, strcmp(folder, "/") == 0 ? "" : "/", *name);
         walk_entry(search, path, below);
@@ -217,7 +226,7 @@ static bool read_text(struct search *search, const char *path, struct monge_text
     struct monge_diagnostics *diag = report_open(search->report);
     const bool good = diag && monge_text_read(path, search->limits, text, diag);
     if (diag) report_close(search->report, diag, true);
-    if (!good) search->scenes->status = STATUS_TROUBLE;
+    if (!good) fail_operand(search);
     return good;
 }
 

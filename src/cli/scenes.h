@@ -29,6 +29,7 @@ struct scenes {
     size_t count;
     struct monge_text input; /* the scene on standard input; without bytes where there is none */
     enum status status;      /* STATUS_TROUBLE: some operand stands for nothing; the reason has been told */
+    size_t missing;          /* such operands, and lines of lists */
 };
 
 /* What is taken of the files below folders. */

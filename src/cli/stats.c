@@ -19,7 +19,7 @@ static void print_all(FILE *out, const struct picture *pictures, size_t count) {
     fputs(",\n  \"pictures\": [\n", out);
     for (size_t i = 0; i < count; i++) {
         fputs("    ", out);
-        picture_write_json(&pictures[i], out);
+        picture_write_json(&pictures[i], NULL, out);
         fputs(i + 1 < count ? ",\n" : "\n", out);
     }
     fputs("  ]\n}\n", out);
@@ -27,15 +27,15 @@ static void print_all(FILE *out, const struct picture *pictures, size_t count) {
 
 /* ---- Files ---- */
 
-static bool write_file(const char *path, const struct monge_text *text) {
-    struct monge_diagnostics *diag = monge_diagnostics_new();
+static bool write_file(const char *path, const struct monge_text *text, const struct report *report) {
+    struct monge_diagnostics *diag = report_open(report);
     const bool written = diag && monge_text_write(path, text, diag);
-    if (diag && !written) monge_diagnostics_print(diag, stderr);
-    monge_diagnostics_free(diag);
+    if (diag) report_close(report, diag, true);
     return written;
 }
 
-bool stats_write(const char *path, const struct picture *pictures, size_t count) {
+bool stats_write(const char *path, const struct picture *pictures, size_t count,
+                 const struct report *report) {
     if (strcmp(path, "-") == 0) {
         print_all(stdout, pictures, count); /* streams_close looks after it */
         return true;
@@ -44,8 +44,8 @@ bool stats_write(const char *path, const struct picture *pictures, size_t count)
     FILE *out = open_memstream(&text.bytes, &text.size);
     if (out) print_all(out, pictures, count);
     const bool made = out && !ferror(out) && fclose(out) == 0;
-    if (!made) say_error("%s: out of memory", path);
-    const bool written = made && write_file(path, &text);
+    if (!made) report_failure(report, "out-of-memory", "%s: out of memory", path);
+    const bool written = made && write_file(path, &text, report);
     free(text.bytes);
     return written;
 }

@@ -349,7 +349,7 @@ static void tell_interrupted(const struct test *test) {
 
 static enum status run_test(struct test *test) {
     struct golden_run *run = &test->run;
-    const struct batch batch = {run->count, run->jobs, test, run_scene, end_scene};
+    const struct batch batch = {run->count, run->jobs, run->jobs > 1, test, run_scene, end_scene};
     golden_tell_begin(&test->teller);
     if (run->count > 0) batch_run(&batch);
     if (!gather(test)) return STATUS_TROUBLE;

@@ -36,16 +36,30 @@ static bool is_whole(struct monge_picture *picture, struct monge_diagnostics *di
     return monge_picture_hash(picture, diag, now) && strcmp(said(picture, "monge:pixels"), now) == 0;
 }
 
-const char *unchanged_reason(const char *path, const char *scene, const char *options, unsigned passes,
+static void take_hash(const struct monge_picture *file, const char *key, char hash[MONGE_HASH_SIZE]) {
+    snprintf(hash, MONGE_HASH_SIZE, "%s", said(file, key));
+}
+
+/* What the file says of itself. */
+static void take_texts(const struct monge_picture *file, struct picture *picture) {
+    picture->region.width = monge_picture_width(file);
+    picture->region.height = monge_picture_height(file);
+    take_hash(file, "monge:scene", picture->scene_hash);
+    take_hash(file, "monge:pixels", picture->pixel_hash);
+}
+
+const char *unchanged_reason(struct picture *picture, const char *options, unsigned passes,
                              const struct monge_limits *limits) {
+    const char *path = picture->output, *scene = picture->scene;
     if (!is_file(scene)) return "its scene is no file";
     if (!is_file(path)) return access(path, F_OK) != 0 ? "it is not there" : "it is no file";
     struct monge_diagnostics *diag = monge_diagnostics_new(); /* what is in it is not wrong, but new */
-    struct monge_picture *picture = diag ? monge_picture_read(path, diag) : NULL;
-    const char *reason = picture ? find_difference(picture, scene, options, limits, diag) : "it is damaged";
-    if (!reason && !is_whole(picture, diag)) reason = "it is damaged";
-    if (!reason && !aov_unchanged(picture, passes, path)) reason = "its passes are not all whole";
-    monge_picture_free(picture);
+    struct monge_picture *file = diag ? monge_picture_read(path, diag) : NULL;
+    const char *reason = file ? find_difference(file, scene, options, limits, diag) : "it is damaged";
+    if (!reason && !is_whole(file, diag)) reason = "it is damaged";
+    if (!reason && !aov_unchanged(file, passes, path)) reason = "its passes are not all whole";
+    if (!reason) take_texts(file, picture);
+    monge_picture_free(file);
     monge_diagnostics_free(diag);
     return reason;
 }

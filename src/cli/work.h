@@ -15,6 +15,7 @@ struct unit {
     const struct output *output;
     struct picture *pictures; /* those tried so far; a scene that cannot be loaded counts as one */
     size_t count;
+    struct problem problem; /* what went wrong first with the picture at work */
     struct progress_unit progress;
     enum status status;
 };
@@ -29,6 +30,9 @@ struct work {
     size_t begun;       /* so many of them */
     size_t outcomes[3]; /* pictures, by theirs */
     atomic_bool tight;  /* a picture could not be written */
+    const char *scene;  /* of the unit that was told last, */
+    char *said; /* what it said, owned; and how often after that the others of the scene said the same */
+    size_t repeated;
     enum status worst;
 };
 

@@ -167,11 +167,55 @@ static void check_explain(void **state) {
     free(text);
 }
 
+/* ---- What a program adds, and what went wrong first ---- */
+
+static void check_added(void **state) {
+    (void)state;
+    struct monge_diagnostics *diag = monge_diagnostics_new();
+    struct monge_problem first;
+    monge_diagnostics_warn(diag, "cannot-write", "no room for notes");
+    assert_false(monge_diagnostics_take(diag, &first)); /* a warning is no problem */
+    monge_diagnostics_fail(diag, "no-match", "x*.yaml: no file matches");
+    monge_diagnostics_fail(diag, "cannot-write", "cannot write x.png");
+    assert_string_equal(document(diag, MONGE_FORMAT_TEXT),
+                        "monge: warning[cannot-write]: no room for notes\n"
+                        "monge: error[no-match]: x*.yaml: no file matches\n"
+                        "monge: error[cannot-write]: cannot write x.png\n");
+    assert_int_equal(monge_diagnostics_failures(diag), 2);
+    assert_true(monge_diagnostics_take(diag, &first));
+    assert_string_equal(first.code, "no-match");
+    assert_string_equal(first.message, "x*.yaml: no file matches");
+    assert_null(first.file);
+    assert_false(monge_diagnostics_take(diag, &first)); /* nothing new */
+    monge_diagnostics_free(diag);
+}
+
+/* Of a scene that is loaded again with other values, what is told again is kept once; but it has gone wrong again. */
+static void check_again(void **state) {
+    (void)state;
+    static const char wrong[] = "params: {a: 1}\nscene: [{sphere: {raduis: a}}]";
+    struct monge_diagnostics *diag = monge_diagnostics_new();
+    struct monge_problem first;
+    for (int i = 0; i < 3; i++) {
+        const struct monge_load_options options = {.again = i == 1};
+        assert_null(monge_load_memory("a.yaml", wrong, sizeof wrong - 1, &options, diag));
+        assert_int_equal(monge_diagnostics_errors(diag), i + 1);
+        assert_true(monge_diagnostics_take(diag, &first));
+        assert_string_equal(first.code, "unknown-key");
+        assert_string_equal(first.file, "a.yaml");
+        assert_int_equal(first.line, 2);
+        assert_int_equal(first.column, 19);
+    }
+    assert_int_equal(occurrences(document(diag, MONGE_FORMAT_JSON), CODE("unknown-key")), 2);
+    monge_diagnostics_free(diag);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(check_memory_limit), cmocka_unit_test(check_file_limit),
         cmocka_unit_test(check_loads),        cmocka_unit_test(check_text),
         cmocka_unit_test(check_codes),        cmocka_unit_test(check_explain),
+        cmocka_unit_test(check_added),        cmocka_unit_test(check_again),
     };
     struct CMUnitTest texts[COUNT(rows)];
     for (size_t i = 0; i < COUNT(rows); i++)

@@ -148,22 +148,25 @@ static void test_shadow_against_pictures(void **state) {
         for (int i = 0; i < 12; i++) {
             const vec3 c = vec3_add(at, random_vec3(&r, -4, 4));
             used += (size_t)snprintf(shapes + used, sizeof shapes - used,
-                                     "  - {sphere: {center: [%g, %g, %g], radius: %g}, material: %s}\n", c.x, c.y,
-                                     c.z, random_between(&r, 0.4, 1.5), i % 4 ? "m" : "glass");
+                                     "  - {sphere: {center: [%g, %g, %g], radius: %g}, material: %s}\n", c.x,
+                                     c.y, c.z, random_between(&r, 0.4, 1.5), i % 4 ? "m" : "glass");
         }
         for (int i = 0; i < LAMPS; i++) {
             const vec3 c = vec3_add(at, random_vec3(&r, -12, 12));
-            snprintf(lamps[i], sizeof *lamps, "  - point: {at: [%g, %g, %g], color: [1e6, 1e6, 1e6]}\n", c.x, c.y, c.z);
+            snprintf(lamps[i], sizeof *lamps, "  - point: {at: [%g, %g, %g], color: [1e6, 1e6, 1e6]}\n", c.x,
+                     c.y, c.z);
         }
         for (int i = -1; i < LAMPS; i++) {
             static uint64_t lights[WIDTH * HEIGHT];
-            snprintf(text, sizeof text,
-                     "image: {size: [%d, %d], samples: 1, background: black}\nrender: {depth: 1}\n"
-                     "camera: {look_at: [%g, %g, %g]}\n"
-                     "materials: {m: {diffuse: white, specular: black}, glass: {extends: m, refraction: white}}\n"
-                     "lights:\n%s%s%s%s\nscene:\n%s  - plane: {point: [0, %g, 0], normal: [0, 1, 0]}\n    material: m\n",
-                     WIDTH, HEIGHT, at.x, at.y, at.z, lamps[i < 0 ? 0 : i], i < 0 ? lamps[1] : "", i < 0 ? lamps[2] : "",
-                     i < 0 ? lamps[3] : "", shapes, at.y - 4);
+            snprintf(
+                text, sizeof text,
+                "image: {size: [%d, %d], samples: 1, background: black}\nrender: {depth: 1}\n"
+                "camera: {look_at: [%g, %g, %g]}\n"
+                "materials: {m: {diffuse: white, specular: black}, glass: {extends: m, refraction: white}}\n"
+                "lights:\n%s%s%s%s\nscene:\n%s  - plane: {point: [0, %g, 0], normal: [0, 1, 0]}\n    "
+                "material: m\n",
+                WIDTH, HEIGHT, at.x, at.y, at.z, lamps[i < 0 ? 0 : i], i < 0 ? lamps[1] : "",
+                i < 0 ? lamps[2] : "", i < 0 ? lamps[3] : "", shapes, at.y - 4);
             if (i < 0) {
                 struct monge_layers *layers = render_good(text, WIDTH, HEIGHT);
                 memcpy(lights, monge_layers_lights(layers), sizeof lights);

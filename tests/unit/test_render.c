@@ -496,21 +496,15 @@ int main(void) {
     for (size_t i = 0; i < sizeof counts / sizeof *counts; i++)
         rows[i] = (struct CMUnitTest){counts[i].name, check_counts, NULL, NULL, &counts[i]};
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_progress),
-        cmocka_unit_test(test_no_more_threads_than_tiles),
+        cmocka_unit_test(test_progress),      cmocka_unit_test(test_no_more_threads_than_tiles),
 #ifdef __GLIBC__
         cmocka_unit_test(test_memory),
 #endif
-        cmocka_unit_test(test_threads),
-        cmocka_unit_test(test_regions),
-        cmocka_unit_test(test_tiles),
-        cmocka_unit_test(test_samples),
-        cmocka_unit_test(test_eye_in_glass),
-        cmocka_unit_test(test_scale_of_the_world),
-        cmocka_unit_test(test_perspective),
-        cmocka_unit_test(test_orthographic),
-        cmocka_unit_test(test_straight_down),
-        cmocka_unit_test(test_framing),
+        cmocka_unit_test(test_threads),       cmocka_unit_test(test_regions),
+        cmocka_unit_test(test_tiles),         cmocka_unit_test(test_samples),
+        cmocka_unit_test(test_eye_in_glass),  cmocka_unit_test(test_scale_of_the_world),
+        cmocka_unit_test(test_perspective),   cmocka_unit_test(test_orthographic),
+        cmocka_unit_test(test_straight_down), cmocka_unit_test(test_framing),
     };
     return cmocka_run_group_tests_name("rays", rows, NULL, NULL) +
            cmocka_run_group_tests_name("render", tests, NULL, NULL);
