@@ -180,12 +180,13 @@ double progress_seconds_left(const struct progress *p) {
     return p->worked > 0.0 && enough ? rendering_left(p) + reading_left(p) : -1.0;
 }
 
-/* Of the time; as long as that is not known, of the work. */
+/* Of the time; as long as that is not known, of the work, or of the pictures where nothing has been rendered. */
 static double part_done(const struct progress *p, double seconds_left) {
     const double seconds = p->now - p->start;
     if (seconds_left == 0.0) return 1.0;
     if (seconds_left > 0.0) return seconds / (seconds + seconds_left);
-    return p->worked > 0.0 ? p->worked / (p->worked + work_left(p)) : 0.0;
+    if (p->worked > 0.0) return p->worked / (p->worked + work_left(p));
+    return (double)count_done(p) / (double)p->pictures;
 }
 
 /* ---- The batch ---- */

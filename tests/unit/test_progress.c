@@ -179,11 +179,13 @@ static void unchanged_ones_and_failures_say_nothing_of_the_pace(void **state) {
         progress_unit_end(&units[i]);
     }
     assert_true(progress_seconds_left(&progress) < 0.0);
+    assert_near(part_done(&progress, -1.0), 3.0 / 5.0, 1e-9, "the part");
     progress_unit_begin(&units[2], &progress);
     progress_picture(&units[2], "scene", &picture, 0);
     now += 1.0;
     progress_update(&units[2], 250, 1000);
     assert_near(progress_seconds_left(&progress), 3.0 + 4.0, 1e-6, "seconds left");
+    assert_near(part_done(&progress, 7.0), 1.0 / 8.0, 1e-6, "the part");
     assert_int_equal(count_done(&progress), 3);
     progress_end(&progress);
 }
