@@ -6,32 +6,65 @@
 #include "cli/say.h"
 #include "cli/scene_path.h"
 
+struct golden_place {
+    char *folder; /* owned; "" is the root of the machine */
+    struct scene_folder last;
+};
+
+static void no_memory(void) {
+    say_error("out of memory");
+    exit(STATUS_TROUBLE);
+}
+
 void golden_places_add(struct golden_places *places, const char *folder) {
     places->folders = realloc(places->folders, (places->count + 1) * sizeof *places->folders);
-    if (!places->folders) {
-        say_error("out of memory");
-        exit(STATUS_TROUBLE);
-    }
+    if (!places->folders) no_memory();
     places->folders[places->count++] = say_text("%s", folder);
 }
 
 void golden_places_free(struct golden_places *places) {
     for (size_t i = 0; i < places->count; i++) free(places->folders[i]);
+    for (size_t i = 0; i < places->all_count; i++) {
+        free(places->all[i].folder);
+        scene_folder_free(&places->all[i].last);
+    }
+    free(places->all);
     free(places->folders);
     free(places->root);
     matches_free(&places->others);
     *places = (struct golden_places){0};
 }
 
-/* In the folder, or, with `above`, in any above it. */
-static bool is_in(const char *folder, bool above, const char *name, const struct monge_limits *limits) {
+/* ---- The places ---- */
+
+static void add_place(struct golden_places *places, const char *folder) {
+    places->all = realloc(places->all, (places->all_count + 1) * sizeof *places->all);
+    if (!places->all) no_memory();
+    places->all[places->all_count++] = (struct golden_place){.folder = say_text("%s", folder)};
+}
+
+/* The folder, and, with `above`, all above it. */
+static void add_folder(struct golden_places *places, const char *folder, bool above) {
     char *real = realpath(folder, NULL);
-    bool there = !real || scene_is_in(real, name, limits);
-    for (char *slash; above && !there && (slash = strrchr(real, '/'));) {
+    places->unknown |= !real;
+    if (real) add_place(places, strcmp(real, "/") == 0 ? "" : real);
+    for (char *slash; real && above && (slash = strrchr(real, '/'));) {
         *slash = '\0';
-        there = scene_is_in(real, name, limits);
+        add_place(places, real);
     }
     free(real);
+}
+
+static void find_all(struct golden_places *places) {
+    if (places->all_count > 0 || places->unknown) return;
+    if (places->root) add_folder(places, places->root, false);
+    for (size_t i = 0; i < places->count && !places->root; i++) add_folder(places, places->folders[i], true);
+}
+
+static bool is_in(struct golden_place *place, const char *name, const struct monge_limits *limits) {
+    char *path = say_text("%s/%s", place->folder, name);
+    const bool there = scene_is_there(path, &place->last, limits);
+    free(path);
     return there;
 }
 
@@ -77,9 +110,8 @@ static bool is_elsewhere(struct golden_places *places, const char *name, const s
 }
 
 bool golden_places_have(struct golden_places *places, const char *name, const struct monge_limits *limits) {
-    if (places->root) return is_in(places->root, false, name, limits);
-    bool there = places->count == 0;
-    for (size_t i = 0; i < places->count && !there; i++)
-        there = is_in(places->folders[i], true, name, limits);
-    return there || is_elsewhere(places, name, limits);
+    find_all(places);
+    bool there = places->unknown || places->all_count == 0;
+    for (size_t i = 0; i < places->all_count && !there; i++) there = is_in(&places->all[i], name, limits);
+    return there || (!places->root && is_elsewhere(places, name, limits));
 }

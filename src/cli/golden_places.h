@@ -8,11 +8,17 @@
 #include "cli/matches.h"
 #include "monge.h"
 
+struct golden_place;
+
 /* All empty: nothing is known, and nothing is an orphan. */
 struct golden_places {
     char *root;     /* owned; NULL: none, but */
     char **folders; /* owned: those of the run */
     size_t count;
+    /* Of these, as soon as they are asked for: */
+    struct golden_place *all; /* owned: where a path may begin that ends in a name */
+    size_t all_count;
+    bool unknown;          /* one of them is not there */
     bool searched;         /* the current folder, for */
     struct matches others; /* scenes below it, not in the folders */
 };

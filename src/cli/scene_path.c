@@ -1,6 +1,5 @@
 #include "cli/scene_path.h"
 
-#include <ctype.h>
 #include <errno.h>
 #include <limits.h>
 #include <stdlib.h>
@@ -8,6 +7,7 @@
 #include <strings.h>
 #include <sys/stat.h>
 
+#include "cli/matches.h"
 #include "cli/say.h"
 
 /* ---- Names ---- */
@@ -61,24 +61,49 @@ static bool is_scene(const char *path, const struct monge_limits *limits) {
     return S_ISREG(status.st_mode) && scene_kind(path, limits) == MONGE_TEXT_SCENE;
 }
 
-/* The extension with those letters as capitals that `capitals` has a bit for. */
-static bool is_there_as(char *path, size_t length, unsigned capitals, const struct monge_limits *limits) {
-    for (unsigned i = 0; path[length + i]; i++) {
-        const int c = path[length + i];
-        path[length + i] = (char)(capitals >> i & 1 ? toupper(c) : tolower(c));
-    }
-    return is_scene(path, limits);
+void scene_folder_free(struct scene_folder *folder) {
+    folder_names_free(folder->names);
+    free(folder->path);
+    *folder = (struct scene_folder){0};
 }
 
-bool scene_is_in(const char *folder, const char *name, const struct monge_limits *limits) {
-    static const char *const extensions[] = {"yaml", "yml"};
-    bool there = false;
-    for (int i = 0; i < 2 && !there; i++) {
-        char *path = say_text("%s/%s.%s", folder, name, extensions[i]);
-        const size_t letters = strlen(extensions[i]), length = strlen(path) - letters;
-        for (unsigned capitals = 0; capitals < 1u << letters && !there; capitals++)
-            there = is_there_as(path, length, capitals, limits);
-        free(path);
+/* The folder is the first `length` bytes of the path. */
+static void look_into(struct scene_folder *folder, const char *path, size_t length) {
+    if (folder->path && strlen(folder->path) == length && strncmp(folder->path, path, length) == 0) return;
+    scene_folder_free(folder);
+    folder->path = say_text("%.*s", (int)length, path);
+    folder->names = folder_names(folder->path);
+    folder->unknown = !folder->names && errno != ENOENT && errno != ENOTDIR;
+    while (folder->names && folder->names[folder->count]) folder->count++;
+}
+
+/* The first name that is not before `text`. */
+static size_t find_from(const struct scene_folder *folder, const char *text) {
+    size_t low = 0, high = folder->count;
+    while (low < high) {
+        const size_t mid = low + (high - low) / 2;
+        if (strcmp(folder->names[mid], text) < 0)
+            low = mid + 1;
+        else
+            high = mid;
     }
+    return low;
+}
+
+bool scene_is_there(const char *path, struct scene_folder *last, const struct monge_limits *limits) {
+    const char *slash = strrchr(path, '/'), *base = slash ? slash + 1 : path;
+    look_into(last, path, (size_t)(base - path));
+    bool there = last->unknown || *base == '.'; /* what is hidden has not been looked at */
+    char *start = say_text("%s.", base);
+    const size_t length = strlen(start);
+    for (size_t i = find_from(last, start); !there && i < last->count; i++) {
+        const char *name = last->names[i];
+        if (strncmp(name, start, length) != 0) break;
+        if (scene_extension(name) != name + length - 1) continue;
+        char *file = say_text("%s%s", last->path, name);
+        there = is_scene(file, limits);
+        free(file);
+    }
+    free(start);
     return there;
 }

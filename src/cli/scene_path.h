@@ -20,7 +20,17 @@ char *scene_name_below(const char *root, const char *path, const char *otherwise
 /* What the file is; of one that cannot be read, MONGE_TEXT_SCENE: so that its reading is what tells. limits may be NULL. */
 enum monge_text_kind scene_kind(const char *path, const struct monge_limits *limits);
 
-/* Whether the folder has a scene of that name; true as well where that cannot be known. limits may be NULL. */
-bool scene_is_in(const char *folder, const char *name, const struct monge_limits *limits);
+/* A folder that was looked into, so that the next scene in it costs nothing; {0}: none yet. */
+struct scene_folder {
+    char *path;   /* owned; its end is a slash */
+    char **names; /* owned: sorted; NULL: it is not there, or */
+    bool unknown; /* cannot be read */
+    size_t count;
+};
+void scene_folder_free(struct scene_folder *folder);
+
+/* Whether there is a scene of that path without its extension; true as well where that cannot be known. *last is the folder
+ * that was looked into last. limits may be NULL. */
+bool scene_is_there(const char *path, struct scene_folder *last, const struct monge_limits *limits);
 
 #endif
