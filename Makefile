@@ -39,7 +39,7 @@ ifneq ($(filter cli,$(STATIONS)),)
 PROGRAM := $(BUILD)/monge
 FACE := $(wildcard src/*.c)
 endif
-SOURCES := $(wildcard $(STATIONS:%=src/%/*.c)) $(FACE)
+SOURCES := $(wildcard $(STATIONS:%=src/%/*.c) $(STATIONS:%=src/%/*/*.c)) $(FACE)
 UNIT := $(wildcard tests/unit/test_*.c)
 ifneq ($(filter lang,$(STATIONS)),)
 GRAMMAR := $(BUILD)/gen/grammar_tables $(BUILD)/gen/grammar_schema
@@ -47,7 +47,7 @@ STORIES := $(BUILD)/gen/stories
 endif
 
 # Which program it is: a hash of all that it is made from.
-PROGRAM_SOURCES := $(sort $(wildcard src/*.[ch] src/*/*.[ch] src/cli/page/* tools/embed grammar/*.yaml tools/grammar/*.[ch] tools/diagnostics.c)) scenes/presets.yaml
+PROGRAM_SOURCES := $(sort $(wildcard src/*.[ch] src/*/*.[ch] src/*/*/*.[ch] src/cli/golden/page/* tools/embed grammar/*.yaml tools/grammar/*.[ch] tools/diagnostics.c)) scenes/presets.yaml
 IDENTITY := $(BUILD)/gen/program
 
 object = $(patsubst %.c,$(BUILD)/obj/%.o,$(1))
@@ -139,7 +139,7 @@ reference: ## make reference.md, errors.md and scene.schema.json in grammar/ ane
 	$(BUILD)/tools/diagnostics reference grammar/diagnostics.yaml grammar/errors.md
 
 format: ## lay out the code by .clang-format, where clang-format is installed
-	@if command -v clang-format >/dev/null; then clang-format -i $(wildcard src/*.[ch] src/*/*.[ch] tests/unit/*.[ch] tools/grammar/*.[ch]); \
+	@if command -v clang-format >/dev/null; then clang-format -i $(wildcard src/*.[ch] src/*/*.[ch] src/*/*/*.[ch] tests/unit/*.[ch] tools/grammar/*.[ch]); \
 	 else echo "format: clang-format is not installed"; fi
 
 lint: ## compile everything with warnings as errors, with clang too
@@ -245,10 +245,10 @@ $(BUILD)/tools/diagnostics: $(call object,tools/diagnostics.c src/lang/file.c) $
 	$(call say,link,$@)
 	$(QUIET)$(LINK) -o $@ $^ $(LIBS)
 
-$(BUILD)/gen/page.c: tools/embed $(wildcard src/cli/page/*)
+$(BUILD)/gen/page.c: tools/embed $(wildcard src/cli/golden/page/*)
 	@mkdir -p $(@D)
 	$(call say,gen,$@)
-	$(QUIET)tools/embed src/cli/page > $@
+	$(QUIET)tools/embed src/cli/golden/page > $@
 
 $(BUILD)/gen/program.c: $(PROGRAM_SOURCES)
 	@mkdir -p $(@D)

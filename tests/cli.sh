@@ -349,7 +349,7 @@ ok "the scene is whole" cmp one.yaml a/one.yaml
 for name in x.jpg x.JPEG none/y.gif; do exits 2 render one.yaml -o $name; err_has "-o $name: pictures are PNG; did you mean ${name%.*}.png?"; missing $name; done
 exits 0 render "${small[@]}" -q one.yaml -o x.y; is_png x.y
 exits 0 render "${small[@]}" -q one.yaml -o 'made/{name}/of.{name}.png'; is_png made/one/of.one.png
-exits 2 render one.yaml -o none/x.png; err_has 'monge: cannot write none/x.png: No such file or directory; -o none/ would make the folder'; missing none
+exits 2 render one.yaml -o none/x.png; err_has 'error[cannot-write]: cannot write none/x.png: No such file or directory; -o none/ would make the folder'; missing none
 exits 2 render one.yaml -o file/x.png; err_has 'file/x.png: Not a directory'
 exits 2 render one.yaml -o file/; err_has 'error[cannot-make-folder]: cannot make the folder file: it is a file'
 if [ -e full ]; then

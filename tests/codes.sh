@@ -49,7 +49,7 @@ words() { tr -s ' ' '\n' <<<"$1" | grep . | sort -u; }
 # The first text of a call is its code; and, but for the import, every text that looks like one: some are passed on.
 # `beyond` is what only_counted gives to a list that is full: it is never kept.
 codes_of_src() {
-    cat src/*.c src/{base,lang,scene,render,cli}/*.c | tr '\n' ' ' |
+    cat src/*.c src/{base,lang,scene,render,cli,cli/golden}/*.c | tr '\n' ' ' |
         grep -oE '(diag|report)_(error|warning|failure)\([^"]*"[a-z]+(-[a-z]+)*"' | grep -oE '"[a-z-]+"$' | tr -d '"'
     find src/lang src/scene src/*.c -name '*.c' ! -name 'import_*.c' -exec cat {} + |
         grep -oE '"[a-z]+(-[a-z]+)+"' | tr -d '"'
@@ -112,7 +112,7 @@ texts_of_src() {
             }
             rest = substr(rest, RSTART + RLENGTH)
         }
-    }' src/*.c src/{base,lang,scene,render,cli}/*.c
+    }' src/*.c src/{base,lang,scene,render,cli,cli/golden}/*.c
 }
 known_texts() { # in C, one that is cut into pieces is put together
     cat tests/{errors,import}/*.txt tests/*.sh

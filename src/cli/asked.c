@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/golden.h"
 #include "cli/say.h"
+#include "cli/words.h"
 
 static const enum option_id change_pixels[] = {OPTION_SIZE,    OPTION_SAMPLES, OPTION_REGION,
                                                OPTION_SHADING, OPTION_SHADOW,  OPTION_NO_SHADOWS,
@@ -55,7 +55,7 @@ static size_t value_length(const char *value) {
 
 static void print_define(FILE *out, const struct monge_define *define) {
     char *text = say_text("%s=%.*s", define->name, (int)value_length(define->value), define->value),
-         *word = golden_quoted(text);
+         *word = word_quoted(text);
     fprintf(out, " -D %s", word);
     free(word);
     free(text);

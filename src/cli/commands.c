@@ -3,11 +3,12 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cli/accept.h"
 #include "cli/check.h"
 #include "cli/diff.h"
 #include "cli/explain.h"
 #include "cli/fmt.h"
+#include "cli/golden/accept.h"
+#include "cli/golden/test.h"
 #include "cli/help.h"
 #include "cli/import.h"
 #include "cli/info.h"
@@ -17,7 +18,6 @@
 #include "cli/scene_path.h"
 #include "cli/schema.h"
 #include "cli/suggest.h"
-#include "cli/test.h"
 #include "monge.h"
 
 #define IN_NONE    (1u << COMMAND_NONE)

@@ -8,7 +8,7 @@
 #include <sys/stat.h>
 
 #include "cli/batch.h"
-#include "cli/golden_folder.h"
+#include "cli/paths.h"
 #include "cli/say.h"
 
 enum side { SIDE_A, SIDE_B, SIDES };
@@ -46,7 +46,7 @@ bool diff_is_folder(const char *path) {
     return stat(path, &status) == 0 && S_ISDIR(status.st_mode);
 }
 
-char *diff_path(const char *folder, const char *name) { return golden_path(folder, name, ""); }
+char *diff_path(const char *folder, const char *name) { return path_below(folder, name, ""); }
 
 static void *no_memory(void) {
     say_error("out of memory");
@@ -175,7 +175,7 @@ static bool write_heat_map(const struct diff_pair *pair, const struct entry *ent
     const char *folder = pair->diff->args->option[OPTION_HEAT_MAP].text;
     if (!folder || pair->verdict == DIFF_SAME || pair->difference.unlike == MONGE_UNLIKE_SIZE) return true;
     char *path = diff_path(folder, entry->name);
-    const bool written = golden_make_folders(path) && diff_pair_write_heat_map(pair, path, diag);
+    const bool written = path_make_folders(path) && diff_pair_write_heat_map(pair, path, diag);
     free(path);
     return written;
 }
@@ -247,8 +247,12 @@ static void compare_all(struct folders *folders) {
     const struct option_value *option = folders->diff->args->option;
     const unsigned processors = monge_processors();
     const unsigned jobs = folders->count < processors ? (unsigned)folders->count : processors;
-    const struct batch batch = {
-        .count = folders->count, .jobs = jobs, .context = folders, .run = run_entry, .ended = end_entry};
+    const struct batch batch = {.count = folders->count,
+                                .jobs = jobs,
+                                .held = jobs > 1,
+                                .context = folders,
+                                .run = run_entry,
+                                .ended = end_entry};
     folders->threads = option[OPTION_THREADS].given ? option[OPTION_THREADS].number[0] : processors / jobs;
     if (option[OPTION_DIFF_JSON].given) puts("[");
     batch_run(&batch);
@@ -279,7 +283,7 @@ static bool check_heat_maps(const struct folders *folders) {
         return false;
     }
     char *inside = diff_path(out, "");
-    bool good = golden_make_folders(inside);
+    bool good = path_make_folders(inside);
     free(inside);
     for (enum side side = SIDE_A; good && side < SIDES; side++) {
         const char *folder = folders->folder[side];

@@ -282,11 +282,13 @@ static bool check_writable(const struct report *report, const char *path) {
 }
 
 /* A FILE of -o has its folder already. */
-static bool check_folder(const char *path) {
+static bool check_folder(const struct report *report, const char *path) {
     const size_t length = folder_length(path);
     char *folder = say_text("%.*s", (int)length, path);
     const bool there = length == 0 || access(folder, F_OK) == 0;
-    if (!there) say_error("cannot write %s: %s; -o %s would make the folder", path, strerror(errno), folder);
+    if (!there)
+        report_failure(report, "cannot-write", "cannot write %s: %s; -o %s would make the folder", path,
+                       strerror(errno), folder);
     free(folder);
     return there;
 }
@@ -310,7 +312,7 @@ static bool check_passes_writable(const struct plan *plan, const char *picture) 
 
 bool plan_reach(struct plan *plan, const char *path) {
     char *copy = say_text("%s", path);
-    const bool good = (makes_folders(plan) ? make_folder(plan, copy) : check_folder(path)) &&
+    const bool good = (makes_folders(plan) ? make_folder(plan, copy) : check_folder(plan->report, path)) &&
                       check_writable(plan->report, path) && check_passes_writable(plan, path);
     free(copy);
     return good;

@@ -93,7 +93,8 @@ static struct monge_film *render_film(struct unit *unit, const struct load *load
 static bool check_room(const struct unit *unit, const struct picture *picture) {
     const uint64_t pixels = (uint64_t)picture->region.width * picture->region.height;
     if (!is_file(picture->output) || room_for(picture->output, unit->work->tight ? pixels : 1)) return true;
-    say_error("cannot write %s: %s", picture->output, strerror(errno));
+    report_failure(&unit->work->loader.report, "cannot-write", "cannot write %s: %s; it is not rendered",
+                   picture->output, strerror(errno));
     return false;
 }
 

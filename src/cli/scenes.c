@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "cli/matches.h"
+#include "cli/paths.h"
 #include "cli/say.h"
 #include "cli/scene_path.h"
 
@@ -31,11 +32,6 @@ static bool is_there(const char *path) { return access(path, F_OK) == 0; }
 static bool is_folder(const char *path) {
     struct stat status;
     return stat(path, &status) == 0 && S_ISDIR(status.st_mode);
-}
-
-static bool is_file(const char *path) {
-    struct stat status;
-    return stat(path, &status) == 0 && S_ISREG(status.st_mode);
 }
 
 static bool is_link(const char *path) {
@@ -261,7 +257,7 @@ static void add_input(struct search *search) {
 
 /* Whether the @ before a list was forgotten. */
 static bool is_list_file(const struct search *search, const char *path) {
-    if (scene_extension(path) || !is_file(path)) return false;
+    if (scene_extension(path) || !path_is_file(path)) return false;
     struct monge_diagnostics *diag = monge_diagnostics_new();
     struct monge_text text = {NULL, 0};
     const bool list = diag && monge_text_read(path, search->limits, &text, diag) && is_list(&text);

@@ -5,11 +5,7 @@
 #include <unistd.h>
 
 #include "cli/aov.h"
-
-static bool is_file(const char *path) {
-    struct stat status;
-    return stat(path, &status) == 0 && S_ISREG(status.st_mode);
-}
+#include "cli/paths.h"
 
 /* What the picture says under a key, "" where that is nothing. */
 static const char *said(const struct monge_picture *picture, const char *key) {
@@ -51,8 +47,8 @@ static void take_texts(const struct monge_picture *file, struct picture *picture
 const char *unchanged_reason(struct picture *picture, const char *options, unsigned passes,
                              const struct monge_limits *limits) {
     const char *path = picture->output, *scene = picture->scene;
-    if (!is_file(scene)) return "its scene is no file";
-    if (!is_file(path)) return access(path, F_OK) != 0 ? "it is not there" : "it is no file";
+    if (!path_is_file(scene)) return "its scene is no file";
+    if (!path_is_file(path)) return access(path, F_OK) != 0 ? "it is not there" : "it is no file";
     struct monge_diagnostics *diag = monge_diagnostics_new(); /* what is in it is not wrong, but new */
     struct monge_picture *file = diag ? monge_picture_read(path, diag) : NULL;
     const char *reason = file ? find_difference(file, scene, options, limits, diag) : "it is damaged";

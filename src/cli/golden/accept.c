@@ -1,0 +1,271 @@
+#include "cli/golden/accept.h"
+
+#include <fnmatch.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "cli/golden/folder.h"
+#include "cli/golden/results.h"
+#include "cli/golden/settings.h"
+#include "cli/golden/take.h"
+#include "cli/interrupt.h"
+#include "cli/paths.h"
+#include "cli/say.h"
+
+/* The last run, and what is taken of it. */
+struct acceptance {
+    const struct arguments *args;
+    const char *folder, *output;
+    struct loader loader;
+    struct golden_settings settings;
+    struct golden_lock lock;
+    struct golden_results results;
+    const char **scenes; /* owned: names of the scenes of the run, sorted */
+    size_t scene_count;
+    size_t taken, removed, refused, done; /* done: before, already */
+    bool trouble;
+};
+
+/* ---- What is wanted ---- */
+
+static bool is_wanted(const struct acceptance *a, const char *name) {
+    for (size_t i = 0; i < a->args->count; i++)
+        if (fnmatch(a->args->operands[i], name, 0) == 0) return true;
+    return a->args->count == 0;
+}
+
+/* Each glob must have something to say of the run. */
+static bool check_globs(const struct acceptance *a) {
+    for (size_t i = 0; i < a->args->count; i++) {
+        size_t matches = 0;
+        for (size_t k = 0; k < a->results.count; k++)
+            matches += fnmatch(a->args->operands[i], a->results.cases[k].name, 0) == 0;
+        if (matches > 0) continue;
+        say_error("%s: no golden of the last run is called so", a->args->operands[i]);
+        return false;
+    }
+    return true;
+}
+
+/* ---- Inputs ---- */
+
+static bool text_has_changed(const struct acceptance *a, const struct golden_case *c,
+                             const struct monge_picture *picture, struct monge_diagnostics *diag) {
+    char now[MONGE_HASH_SIZE];
+    const char *files = monge_picture_text(picture, "monge:files");
+    return !monge_files_hash(c->scene, files ? files : "", &a->loader.limits.load, diag, now) ||
+           strcmp(now, c->now.text) != 0;
+}
+
+static bool options_have_changed(const struct acceptance *a, const struct golden_case *c) {
+    return strcmp(golden_settings_find(&a->settings, c->scene_name)->rule->options, c->rule_options) != 0;
+}
+
+static bool says(const struct monge_picture *picture, const char *key, const char *text) {
+    const char *said = monge_picture_text(picture, key);
+    return strcmp(said ? said : "", text ? text : "") == 0;
+}
+
+/* Whether it is the picture that the run has written, with all that the run has noted of it: both are files that anybody
+ * may have changed. */
+static bool is_of_run(const struct golden_case *c, struct monge_picture *picture,
+                      struct monge_diagnostics *diag) {
+    const struct golden_stamp *s = &c->now;
+    char pixels[MONGE_HASH_SIZE];
+    return monge_picture_hash(picture, diag, pixels) && strcmp(pixels, s->pixels) == 0 &&
+           monge_picture_width(picture) == s->width && monge_picture_height(picture) == s->height &&
+           monge_picture_bits(picture) == s->bits && says(picture, "monge:scene", s->scene) &&
+           says(picture, "monge:program", s->program) && says(picture, "monge:options", s->options);
+}
+
+/* Why the new picture cannot be taken; NULL: it can. */
+static const char *find_obstacle(const struct acceptance *a, const struct golden_case *c,
+                                 struct monge_diagnostics *diag) {
+    struct monge_picture *picture = monge_picture_read(c->new_path, diag);
+    const char *why = NULL;
+    if (!picture)
+        why = "its new picture cannot be read any more";
+    else if (strcmp(monge_program(), c->now.program) != 0)
+        why = "the program has changed since the run";
+    else if (!is_of_run(c, picture, diag))
+        why = "its new picture is not that of the run";
+    else if (access(c->scene, R_OK) != 0)
+        why = "its scene cannot be read from here";
+    else if (text_has_changed(a, c, picture, diag))
+        why = "the scene has changed since the run";
+    else if (options_have_changed(a, c))
+        why = "its options in golden.yaml have changed since the run";
+    monge_picture_free(picture);
+    return why;
+}
+
+/* ---- Taking ---- */
+
+static void refuse(struct acceptance *a, const struct golden_case *c, const char *why) {
+    say_error("%s is left as it is: %s", c->name, why);
+    a->refused++;
+}
+
+static void pass_by(struct acceptance *a, const struct golden_case *c, const char *what) {
+    a->done++;
+    if (!a->args->option[OPTION_QUIET].given) say_line(stdout, "%s is %s already", c->name, what);
+}
+
+static void take_case(struct acceptance *a, struct golden_case *c) {
+    struct monge_diagnostics *diag = monge_diagnostics_new();
+    const char *why = diag ? find_obstacle(a, c, diag) : "out of memory";
+    monge_diagnostics_free(diag);
+    if (why)
+        refuse(a, c, why);
+    else if (golden_is_taken(a->folder, &a->lock, c))
+        pass_by(a, c, "taken");
+    else if (!golden_is_as_noted(a->folder, &a->lock, c))
+        refuse(a, c, "its golden has changed since the run: `monge test` compares it anew");
+    else if (!golden_take(a->folder, &a->lock, c))
+        a->trouble = true;
+    else {
+        a->taken++;
+        if (!a->args->option[OPTION_QUIET].given) say_line(stdout, "took %s", c->name);
+    }
+}
+
+static int compare_names(const void *a, const void *b) {
+    return strcmp(*(const char *const *)a, *(const char *const *)b);
+}
+
+static bool name_scenes(struct acceptance *a) {
+    a->scenes = calloc(a->results.count + 1, sizeof *a->scenes);
+    if (!a->scenes) say_error("out of memory");
+    for (size_t i = 0; a->scenes && i < a->results.count; i++)
+        if (a->results.cases[i].scene_name) a->scenes[a->scene_count++] = a->results.cases[i].scene_name;
+    if (a->scenes) qsort(a->scenes, a->scene_count, sizeof *a->scenes, compare_names);
+    return a->scenes;
+}
+
+static bool was_in_run(const struct acceptance *a, const char *scene) {
+    return bsearch(&scene, a->scenes, a->scene_count, sizeof scene, compare_names);
+}
+
+/* The golden is called as its scene, or that and what frames and parameters add behind a `-`. What a scene of the run had
+ * no golden for is none of its. */
+static bool scene_is_back(struct acceptance *a, const char *name) {
+    char *scene = say_text("%s", name);
+    bool back = false;
+    for (char *end = scene + strlen(scene); end && !back; end = strrchr(scene, '-')) {
+        *end = '\0';
+        back = !was_in_run(a, scene) && golden_places_have(&a->results.places, scene, &a->loader.limits.load);
+    }
+    free(scene);
+    return back;
+}
+
+static void remove_orphan(struct acceptance *a, struct golden_case *c) {
+    free(c->golden_path);
+    c->golden_path = c->kind == MONGE_GOLDEN_HASH ? NULL : path_below(a->folder, c->name, ".png");
+    if (!golden_lock_find(&a->lock, c->name) && !(c->golden_path && path_is_file(c->golden_path)))
+        pass_by(a, c, "removed");
+    else if (scene_is_back(a, c->name))
+        refuse(a, c, "its scene is there again");
+    else if (!golden_forget(a->folder, &a->lock, c))
+        a->trouble = true;
+    else {
+        a->removed++;
+        if (!a->args->option[OPTION_QUIET].given) say_line(stdout, "removed %s", c->name);
+    }
+}
+
+static void settle_case(struct acceptance *a, struct golden_case *c) {
+    if (!is_wanted(a, c->name)) return;
+    if (c->status == GOLDEN_ORPHAN && a->args->option[OPTION_PRUNE].given) remove_orphan(a, c);
+    if (golden_can_take(c) && c->scene && c->scene_name && c->rule_options) take_case(a, c);
+}
+
+/* The paths are made anew from the names, which must be fit for it: the document is a file like any other. */
+static bool prepare_cases(struct acceptance *a) {
+    char *folder = path_below(a->output, "new", "");
+    bool good = true;
+    for (size_t i = 0; good && i < a->results.count; i++) {
+        struct golden_case *c = &a->results.cases[i];
+        good = golden_name_is_safe(c->name);
+        if (!good) say_error("%s/results.json: `%s` is no name of a golden", a->output, c->name);
+        if (!c->new_path) continue;
+        free(c->new_path);
+        c->new_path = path_below(folder, c->name, ".png");
+    }
+    free(folder);
+    return good;
+}
+
+/* What the run says nothing of stays as it is. */
+static void tell_interruption(const struct acceptance *a) {
+    char *interruption = golden_interruption(&a->results);
+    if (interruption && !a->args->option[OPTION_QUIET].given) say_note("the run was %s", interruption);
+    free(interruption);
+}
+
+static enum status settle(struct acceptance *a) {
+    tell_interruption(a);
+    interrupt_defer();
+    for (size_t i = 0; i < a->results.count && !interrupt_pending(); i++)
+        settle_case(a, &a->results.cases[i]);
+    if (a->taken + a->removed > 0 && !golden_lock_write(&a->lock)) a->trouble = true;
+    interrupt_settle();
+    if (!a->args->option[OPTION_QUIET].given) {
+        printf("%zu taken", a->taken);
+        if (a->removed > 0) printf(", %zu removed", a->removed);
+        if (a->done > 0) printf(", %zu done already", a->done);
+        if (a->refused > 0) printf(", %zu left as they are", a->refused);
+        printf("\n");
+    }
+    return a->trouble ? STATUS_TROUBLE : a->refused > 0 ? STATUS_NO : STATUS_YES;
+}
+
+/* ---- All of it ---- */
+
+static bool is_same_folder(const char *a, const char *b) {
+    struct stat p, q;
+    return strcmp(a, b) == 0 ||
+           (stat(a, &p) == 0 && stat(b, &q) == 0 && p.st_dev == q.st_dev && p.st_ino == q.st_ino);
+}
+
+static bool read_run(struct acceptance *a) {
+    char *path = path_below(a->output, "results.json", "");
+    const enum golden_reading reading = golden_results_read(&a->results, path);
+    bool good = reading == GOLDEN_READ;
+    if (reading == GOLDEN_DAMAGED) say_error("%s is damaged: `monge test` makes it anew", path);
+    if (good && !a->results.folder) {
+        say_error("%s is not there: `monge test` makes it, with --output %s", path, a->output);
+        good = false;
+    } else if (good && !is_same_folder(a->results.folder, a->folder)) {
+        say_error("%s: the last run was with the goldens of %s", path, a->results.folder);
+        good = false;
+    }
+    free(path);
+    return good && prepare_cases(a);
+}
+
+static bool begin(struct acceptance *a) {
+    const struct option_value *option = a->args->option;
+    if (!option[OPTION_GOLDEN].given) {
+        say_usage(COMMAND_ACCEPT, "accept: --golden DIR is missing, the folder of the goldens");
+        return false;
+    }
+    a->folder = option[OPTION_GOLDEN].text;
+    a->output = option[OPTION_TEST_OUTPUT].given ? option[OPTION_TEST_OUTPUT].text : "monge-test";
+    golden_hold(a->folder);
+    return limits_read(a->args, &a->loader.limits) &&
+           golden_settings_read(&a->settings, a->folder, NULL, NULL, &a->loader) &&
+           golden_lock_read(&a->lock, a->folder) && read_run(a) && name_scenes(a) && check_globs(a);
+}
+
+enum status accept_command(const struct arguments *args) {
+    struct acceptance a = {.args = args};
+    const enum status status = begin(&a) ? settle(&a) : STATUS_TROUBLE;
+    free(a.scenes);
+    golden_results_free(&a.results);
+    golden_lock_free(&a.lock);
+    golden_settings_free(&a.settings);
+    return status;
+}

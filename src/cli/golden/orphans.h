@@ -1,0 +1,11 @@
+/* Goldens whose scene is gone. */
+#ifndef MONGE_CLI_GOLDEN_ORPHANS_H
+#define MONGE_CLI_GOLDEN_ORPHANS_H
+
+#include "cli/golden/run.h"
+
+/* Adds a case for each to the results, which have all cases of the run: for a golden that no scene of the run has made, and
+ * none that is in the results' places may make. Without places there are none. A scene that is broken keeps its goldens. */
+void golden_find_orphans(const struct golden_run *run, struct golden_results *results);
+
+#endif

@@ -1,0 +1,130 @@
+#include "cli/golden/tell.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/say.h"
+
+/* ---- What there is to say ---- */
+
+static char *same_detail(const struct golden_case *c) {
+    if (c->unchanged) return say_text("unchanged");
+    if (!c->within) return NULL;
+    char *difference = golden_difference_text(&c->difference);
+    char *text = say_text("within its tolerance (%s): %s", c->tolerance.reason, difference);
+    free(difference);
+    return text;
+}
+
+char *golden_detail(const struct golden_case *c) {
+    switch (c->status) {
+    case GOLDEN_SAME: return same_detail(c);
+    case GOLDEN_CHANGED:
+        if (c->compared) return golden_difference_text(&c->difference);
+        if (c->now.width != c->old.width || c->now.height != c->old.height || c->now.bits != c->old.bits)
+            return say_text("%ux%u of %u bits, the golden %ux%u of %u", c->now.width, c->now.height,
+                            c->now.bits, c->old.width, c->old.height, c->old.bits);
+        return say_text("its pixels are not those of the hash");
+    case GOLDEN_NEW: return say_text("there is no golden yet");
+    case GOLDEN_ORPHAN: return say_text("no scene makes it any more");
+    default: return NULL;
+    }
+}
+
+/* A text of perhaps many lines; control characters, which may come from file names, made harmless. */
+static void print_lines(FILE *out, const char *text, const char *before) {
+    for (const char *line = text; *line;) {
+        const size_t length = strcspn(line, "\n");
+        say_line(out, "%s%.*s", before, (int)length, line);
+        line += length + (line[length] == '\n');
+    }
+}
+
+static void print_field(FILE *out, const char *key, const char *text, const char *before) {
+    if (text) say_line(out, "%s%s%s", before, key, text);
+}
+
+void golden_print_details(FILE *out, const struct golden_case *c, const char *before) {
+    if (c->message) print_lines(out, c->message, before);
+    if (c->status == GOLDEN_SAME) return;
+    for (size_t i = 0; i < c->change_count; i++) print_lines(out, c->changes[i], before);
+    char *differs = c->status == GOLDEN_CHANGED ? golden_causes_text(c) : NULL;
+    if (differs) print_lines(out, differs, before);
+    free(differs);
+    if (c->tolerance_text && c->status == GOLDEN_CHANGED)
+        print_field(out, "allowed: ", c->tolerance_text, before);
+    print_field(out, "new: ", c->new_path, before);
+    print_field(out, "again: ", c->command, before);
+    print_field(out, "old: ", c->old_command, before);
+}
+
+/* ---- In a terminal ---- */
+
+static void tell_line(const struct golden_teller *teller, const struct golden_case *c) {
+    static const char *const colors[] = {"32", "31", "36", "33", "33", "31"};
+    char *detail = golden_detail(c);
+    if (teller->colors) fprintf(teller->out, "\033[%sm", colors[c->status]);
+    fprintf(teller->out, "%-8s", GOLDEN_STATUS[c->status]);
+    if (teller->colors) fputs("\033[0m", teller->out);
+    say_line(teller->out, " %s%s%s", c->name, detail ? "  " : "", detail ? detail : "");
+    golden_print_details(teller->out, c, "         ");
+    free(detail);
+}
+
+/* ---- As TAP ---- */
+
+static void put_description(FILE *out, const char *name) {
+    for (const char *c = name; *c; c++) {
+        if (*c == '#' || *c == '\\') putc('\\', out);
+        putc((unsigned char)*c < 0x20 || *c == 0x7f ? '?' : *c, out);
+    }
+}
+
+static void put_block(FILE *to, const struct golden_case *c) {
+    char *detail = golden_detail(c), *lines = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&lines, &size);
+    if (out) golden_print_details(out, c, "");
+    if (out) fclose(out);
+    fprintf(to, "  ---\n  status: %s\n  detail: ", GOLDEN_STATUS[c->status]);
+    monge_write_json_string(detail ? detail : "", to);
+    fputs("\n  lines: ", to);
+    monge_write_json_string(lines ? lines : "", to);
+    fputs("\n  ...\n", to);
+    free(lines);
+    free(detail);
+}
+
+static void tell_tap(const struct golden_teller *teller, const struct golden_case *c) {
+    fprintf(teller->out, "%sok %zu - ", c->status == GOLDEN_SAME ? "" : "not ", teller->told);
+    put_description(teller->out, c->name);
+    fprintf(teller->out, "%s\n", c->unchanged ? " # SKIP unchanged" : "");
+    if (c->status != GOLDEN_SAME) put_block(teller->out, c);
+}
+
+/* ---- Both ---- */
+
+void golden_tell_begin(struct golden_teller *teller) {
+    if (teller->tap) fprintf(teller->out, "TAP version 13\n");
+}
+
+void golden_tell(struct golden_teller *teller, const struct golden_case *c) {
+    teller->told++;
+    if (teller->tap)
+        tell_tap(teller, c);
+    else if (c->status != GOLDEN_SAME || !teller->quiet)
+        tell_line(teller, c);
+    streams_flush();
+}
+
+void golden_tell_end(struct golden_teller *teller, const struct golden_results *results) {
+    char *summary = golden_summary(results), *interruption = golden_interruption(results);
+    if (teller->tap && interruption)
+        fprintf(teller->out, "Bail out! %s\n", interruption);
+    else if (teller->tap)
+        fprintf(teller->out, "1..%zu\n# %s\n", teller->told, summary);
+    else
+        fprintf(teller->out, "%s, in %.1f s\n", summary, results->seconds);
+    free(interruption);
+    free(summary);
+}

@@ -1,0 +1,31 @@
+/* A run of `monge test` as it is told: in a terminal, or to programs. */
+#ifndef MONGE_CLI_GOLDEN_TELL_H
+#define MONGE_CLI_GOLDEN_TELL_H
+
+#include <stdio.h>
+
+#include "cli/golden/results.h"
+
+struct golden_teller {
+    FILE *out;
+    bool tap;    /* as TAP version 13 */
+    bool quiet;  /* what is the same is passed by */
+    bool colors; /* of a terminal */
+    size_t told; /* cases so far */
+};
+
+/* As lines. Begin comes before the first case, end after the last. */
+void golden_tell_begin(struct golden_teller *teller);
+void golden_tell(struct golden_teller *teller, const struct golden_case *c);
+void golden_tell_end(struct golden_teller *teller, const struct golden_results *results);
+
+/* What is to be said of a case beside its status: a sentence to its line; NULL: nothing. To be freed. */
+char *golden_detail(const struct golden_case *c);
+
+/* Line by line all the rest, each with `before` ahead of it. */
+void golden_print_details(FILE *out, const struct golden_case *c, const char *before);
+
+/* The results as JUnit has them, XML. To be freed. */
+char *golden_junit_text(const struct golden_results *results);
+
+#endif

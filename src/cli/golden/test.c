@@ -1,0 +1,440 @@
+#include "cli/golden/test.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "cli/batch.h"
+#include "cli/clock.h"
+#include "cli/golden/files.h"
+#include "cli/golden/folder.h"
+#include "cli/golden/orphans.h"
+#include "cli/golden/run.h"
+#include "cli/golden/take.h"
+#include "cli/golden/tell.h"
+#include "cli/interrupt.h"
+#include "cli/paths.h"
+#include "cli/say.h"
+
+/* A run, what has become of it, and how it is told. */
+struct test {
+    struct arguments args;
+    struct golden_run run;
+    struct golden_teller teller;
+    struct golden_results results;
+    double begun;
+};
+
+static bool wants(const struct test *test, enum option_id option) { return test->args.option[option].given; }
+
+/* ---- Scenes ---- */
+
+/* The root as one would name it from here, where it is below. To be freed. */
+static char *root_from_here(const char *root) {
+    char *here = getcwd(NULL, 0);
+    const size_t length = here ? strlen(here) : 0;
+    const bool below =
+        length > 1 && strncmp(root, here, length) == 0 && (root[length] == '/' || !root[length]);
+    char *path = !below ? say_text("%s", root) : say_text("%s", root[length] ? root + length + 1 : ".");
+    free(here);
+    return path;
+}
+
+/* Without operands, all that is below the root. */
+static bool find_scenes(struct test *test) {
+    struct golden_run *run = &test->run;
+    if (test->args.count == 0 && !run->settings.root) {
+        say_usage(COMMAND_TEST, "test: no scene given; --root, or `root` in %s, would tell where they are",
+                  run->settings.path);
+        return false;
+    }
+    if (test->args.count == 0) {
+        struct arguments args = test->args;
+        char *root = root_from_here(run->settings.root);
+        args.operands = &root;
+        args.count = 1;
+        scenes_find(&run->loader.scenes, &args, SCENES_ALONE, &run->loader.limits.load, &run->loader.report);
+        free(root);
+    }
+    for (size_t i = 0; i < run->loader.scenes.count; i++) {
+        if (strcmp(run->loader.scenes.all[i].path, "-") != 0) continue;
+        say_usage(COMMAND_TEST, "test: a scene on standard input has no name for a golden");
+        return false;
+    }
+    return true;
+}
+
+static bool is_same_file(const char *a, const char *b) {
+    struct stat p, q;
+    return strcmp(a, b) == 0 ||
+           (stat(a, &p) == 0 && stat(b, &q) == 0 && p.st_dev == q.st_dev && p.st_ino == q.st_ino);
+}
+
+static int compare_scenes(const void *a, const void *b) {
+    const struct golden_scene *p = *(const struct golden_scene *const *)a,
+                              *q = *(const struct golden_scene *const *)b;
+    const int order = strcmp(p->name, q->name);
+    return order ? order : p < q ? -1 : p > q;
+}
+
+/* A scene that is named twice counts once; two scenes of one name are wrong. */
+static bool check_scenes(struct golden_run *run) {
+    struct golden_scene **sorted = calloc(run->count + 1, sizeof *sorted);
+    bool good = sorted != NULL;
+    if (!good) say_error("out of memory");
+    for (size_t i = 0; good && i < run->count; i++) sorted[i] = &run->scenes[i];
+    if (good && run->count > 1) qsort(sorted, run->count, sizeof *sorted, compare_scenes);
+    for (size_t i = 1; good && i < run->count; i++) {
+        if (strcmp(sorted[i - 1]->name, sorted[i]->name) != 0) continue;
+        good = is_same_file(sorted[i - 1]->path, sorted[i]->path);
+        if (!good)
+            say_error("%s and %s would have the same golden, %s: give --root, or golden.yaml a `root`",
+                      sorted[i - 1]->path, sorted[i]->path, sorted[i]->name);
+        sorted[i]->path = sorted[i - 1]->path;
+        sorted[i - 1]->path = NULL;
+    }
+    free(sorted);
+    if (!good) return false;
+    size_t kept = 0;
+    for (size_t i = 0; i < run->count; i++)
+        if (run->scenes[i].path)
+            run->scenes[kept++] = run->scenes[i];
+        else
+            free(run->scenes[i].name);
+    run->count = kept;
+    return true;
+}
+
+static bool name_scenes(struct golden_run *run) {
+    const struct scenes *found = &run->loader.scenes;
+    run->scenes = calloc(found->count + 1, sizeof *run->scenes);
+    if (!run->scenes) say_error("out of memory");
+    for (size_t i = 0; run->scenes && i < found->count; i++) {
+        char *name = golden_settings_name(&run->settings, &found->all[i]);
+        if (name) {
+            run->scenes[run->count++] = (struct golden_scene){
+                .path = found->all[i].path, .name = name, .rule = golden_settings_find(&run->settings, name)};
+            continue;
+        }
+        say_error("%s: it is not below `root`, %s", found->all[i].path, run->settings.root);
+        run->loader.scenes.status = STATUS_TROUBLE;
+    }
+    return run->scenes && check_scenes(run);
+}
+
+/* Whether the operands may tell all scenes: each is a folder, and was read. */
+static bool names_all(const struct test *test) {
+    for (size_t i = 0; i < test->args.count; i++) {
+        struct stat status;
+        if (stat(test->args.operands[i], &status) != 0 || !S_ISDIR(status.st_mode)) return false;
+    }
+    return test->run.loader.scenes.status == STATUS_YES;
+}
+
+/* Where a golden's scene must be gone from, so that it is an orphan. */
+static void find_places(struct test *test) {
+    struct golden_places *places = &test->results.places;
+    const char *root = test->run.settings.root;
+    if (!names_all(test)) return;
+    if (root) places->root = root_from_here(root);
+    for (size_t i = 0; i < test->args.count && !root; i++) golden_places_add(places, test->args.operands[i]);
+}
+
+static void warn_of_tolerances(const struct golden_run *run) {
+    for (size_t i = 0; i < run->settings.count; i++) {
+        const struct monge_golden_rule *rule = run->settings.rules[i].rule;
+        if (rule->tolerance && !golden_knows_tolerance(run, rule->kind))
+            say_error("warning: %s:%u: the tolerance of this rule counts for nothing: goldens that are "
+                      "hashes have no "
+                      "pixels to compare, which `kind: png` keeps",
+                      run->settings.path, rule->line);
+    }
+}
+
+/* ---- The folder of the run ---- */
+
+/* What the run before has left. */
+static bool clear_folder(const struct golden_run *run) {
+    bool good = true;
+    for (size_t i = 0; i < run->last.count; i++) good &= golden_clear(run->output, run->last.cases[i].name);
+    return good;
+}
+
+/* A folder that is made here keeps itself out of repositories. */
+static bool make_folder(const char *path) {
+    struct monge_text ignore = {"*\n", 2};
+    char *file = path_below(path, ".gitignore", "");
+    struct stat status;
+    const bool there = stat(path, &status) == 0;
+    const bool good = there || (path_make_folders(file) && golden_write(file, &ignore));
+    free(file);
+    return good;
+}
+
+/* The run writes into its folder, and removes what is in its new/ and old/: goldens must not be there. */
+static bool check_folders(const struct golden_run *run) {
+    static const char *const parts[] = {"", "new", "old"};
+    char *goldens = golden_real_path(run->folder);
+    bool good = true;
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
+        char *path = path_below(run->output, parts[i], ""), *real = golden_real_path(path);
+        good &= strcmp(real, goldens) != 0;
+        free(real);
+        free(path);
+    }
+    if (!good)
+        say_error("--output %s would write into the folder of the goldens, %s", run->output, run->folder);
+    free(goldens);
+    return good;
+}
+
+static bool prepare_folder(struct golden_run *run) {
+    char *results = path_below(run->output, "results.json", "");
+    const enum golden_reading reading = golden_results_read(&run->last, results);
+    if (reading == GOLDEN_DAMAGED)
+        say_error("warning: %s is damaged: this run goes as if there had been none before, and replaces it",
+                  results);
+    const bool good = reading != GOLDEN_UNREAD && make_folder(run->output) && clear_folder(run) &&
+                      golden_remove(run->output, results);
+    free(results);
+    return good && make_folder(run->output); /* the last file that goes may take the folder with it */
+}
+
+/* ---- The run ---- */
+
+static bool run_scene(void *context, size_t index) {
+    struct test *test = context;
+    golden_scene_run(&test->run, &test->run.scenes[index]);
+    return true;
+}
+
+static void end_scene(void *context, size_t index, const char *said) {
+    struct test *test = context;
+    const struct golden_scene *scene = &test->run.scenes[index];
+    fputs(said, stderr);
+    for (size_t i = 0; i < scene->count; i++) golden_tell(&test->teller, &scene->cases[i]);
+}
+
+/* Of all scenes, in their order; they are the results' from now on. */
+static bool gather(struct test *test) {
+    struct golden_run *run = &test->run;
+    size_t count = 0;
+    for (size_t i = 0; i < run->count; i++) count += run->scenes[i].count;
+    struct golden_case *cases = calloc(count + 1, sizeof *cases), *to = cases;
+    if (!cases) say_error("out of memory");
+    for (size_t i = 0; cases && i < run->count; i++)
+        for (size_t k = 0; k < run->scenes[i].count; k++) *to++ = run->scenes[i].cases[k];
+    test->results.cases = cases;
+    test->results.count = cases ? count : 0;
+    return cases;
+}
+
+static int compare_cases(const void *a, const void *b) {
+    const struct golden_case *p = *(const struct golden_case *const *)a,
+                             *q = *(const struct golden_case *const *)b;
+    const int order = strcmp(p->name, q->name);
+    return order ? order : p < q ? -1 : p > q;
+}
+
+/* Names that frames and parameters make may be those of other scenes. */
+static bool check_names(const struct golden_case *cases, size_t count) {
+    const struct golden_case **sorted = calloc(count + 1, sizeof *sorted);
+    bool good = sorted != NULL;
+    if (!good) say_error("out of memory");
+    for (size_t i = 0; good && i < count; i++) sorted[i] = &cases[i];
+    if (good && count > 1) qsort(sorted, count, sizeof *sorted, compare_cases);
+    for (size_t i = 1; good && i < count; i++) {
+        good = strcmp(sorted[i - 1]->name, sorted[i]->name) != 0;
+        if (!good)
+            say_error("%s and %s have the same golden, %s", sorted[i - 1]->scene, sorted[i]->scene,
+                      sorted[i]->name);
+    }
+    free(sorted);
+    return good;
+}
+
+static bool take_new(struct test *test) {
+    struct golden_run *run = &test->run;
+    golden_hold(run->folder); /* others may have written the lock during the run */
+    golden_lock_free(&run->lock);
+    if (!golden_lock_read(&run->lock, run->folder)) return false;
+    size_t taken = 0, wanted = 0;
+    bool good = true;
+    for (size_t i = 0; i < test->results.count; i++) {
+        struct golden_case *c = &test->results.cases[i];
+        if (!golden_can_take(c)) continue;
+        wanted++;
+        if (golden_is_as_noted(run->folder, &run->lock, c))
+            good &= c->taken = golden_take(run->folder, &run->lock, c);
+        else
+            say_error("%s is left as it is: its golden has changed during the run", c->name);
+        taken += c->taken;
+    }
+    if (taken > 0 && !golden_lock_write(&run->lock)) return false;
+    if (wanted > 0 && !test->teller.tap)
+        fprintf(test->teller.out, "%zu of %zu new pictures are goldens now\n", taken, wanted);
+    return good;
+}
+
+/* ---- What it comes to ---- */
+
+static enum status judge(const struct test *test) {
+    enum status worst = test->run.loader.scenes.status;
+    for (size_t i = 0; i < test->results.count; i++) {
+        const struct golden_case *c = &test->results.cases[i];
+        const enum status status = c->trouble                             ? STATUS_TROUBLE
+                                   : c->status == GOLDEN_SAME || c->taken ? STATUS_YES
+                                                                          : STATUS_NO;
+        if (status > worst) worst = status;
+    }
+    return worst;
+}
+
+/* Pictures of goldens that have become hashes are no orphans: they may be there for something else. */
+static void mention_pictures(const struct test *test) {
+    char *first = NULL;
+    size_t count = 0;
+    for (size_t i = 0; i < test->results.count; i++) {
+        const struct golden_case *c = &test->results.cases[i];
+        char *path = path_below(test->run.folder, c->name, ".png");
+        const bool useless = c->kind == MONGE_GOLDEN_HASH && c->scene && path_is_file(path);
+        if (useless && count++ == 0)
+            first = path;
+        else
+            free(path);
+    }
+    if (count == 1) say_line(test->teller.out, "%s is not compared: its golden is a hash", first);
+    if (count > 1)
+        say_line(test->teller.out, "%s and %zu more pictures are not compared: their goldens are hashes",
+                 first, count - 1);
+    free(first);
+}
+
+static void mention_elsewhere(const struct test *test) {
+    const size_t count = test->results.elsewhere;
+    if (count > 0)
+        say_line(test->teller.out, "%zu golden%s of scenes that are not in this run", count,
+                 count == 1 ? " is" : "s are");
+}
+
+static void hint(const struct test *test) {
+    bool can = false, orphans = false;
+    for (size_t i = 0; i < test->results.count; i++) {
+        can |= golden_can_take(&test->results.cases[i]) && !test->results.cases[i].taken;
+        orphans |= test->results.cases[i].status == GOLDEN_ORPHAN;
+    }
+    if (!(can || orphans)) return;
+    const bool usual = !wants(test, OPTION_TEST_OUTPUT);
+    fprintf(test->teller.out, "`monge accept --golden %s%s%s%s` %s\n", test->run.folder,
+            usual ? "" : " --output ", usual ? "" : test->run.output, orphans ? " --prune" : "",
+            !orphans ? "takes the new pictures"
+            : can    ? "takes the new pictures and removes the orphans"
+                     : "removes the orphans");
+}
+
+/* ---- All of it ---- */
+
+/* Scenes that a signal has kept from being judged. */
+static size_t count_undone(const struct golden_run *run) {
+    size_t undone = 0;
+    for (size_t i = 0; i < run->count; i++) undone += !run->scenes[i].done;
+    return undone;
+}
+
+static void tell_interrupted(const struct test *test) {
+    if (test->results.interrupted && !test->teller.quiet)
+        say_note("interrupted: %zu of %zu scenes not judged", test->results.interrupted, test->run.count);
+}
+
+static enum status run_test(struct test *test) {
+    struct golden_run *run = &test->run;
+    const struct batch batch = {run->count, run->jobs, run->jobs > 1, test, run_scene, end_scene};
+    golden_tell_begin(&test->teller);
+    if (run->count > 0) batch_run(&batch);
+    if (!gather(test)) return STATUS_TROUBLE;
+    test->results.interrupted = count_undone(run);
+    const bool all = test->results.interrupted == 0;
+    const size_t first_orphan = test->results.count;
+    if (all) find_places(test);
+    if (all) golden_find_orphans(run, &test->results);
+    for (size_t i = first_orphan; i < test->results.count; i++)
+        golden_tell(&test->teller, &test->results.cases[i]);
+    test->results.seconds = clock_seconds() - test->begun;
+    golden_tell_end(&test->teller, &test->results);
+    if (!check_names(test->results.cases, first_orphan)) return STATUS_TROUBLE;
+    bool good = !all || !wants(test, OPTION_UPDATE_ONLY_FAILED) || take_new(test);
+    good &= golden_files_write(&test->results, run->output, test->args.option);
+    if (!test->teller.tap && !test->teller.quiet) {
+        mention_pictures(test);
+        mention_elsewhere(test);
+        hint(test);
+    }
+    tell_interrupted(test);
+    return good ? judge(test) : STATUS_TROUBLE;
+}
+
+static bool is_standard(const struct option_value *option) {
+    return option->given && strcmp(option->text, "-") == 0;
+}
+
+static bool begin(struct test *test, const struct arguments *args) {
+    const struct option_value *option = args->option;
+    struct golden_run *run = &test->run;
+    if (!option[OPTION_GOLDEN].given) {
+        say_usage(COMMAND_TEST, "test: --golden DIR is missing, the folder of the goldens");
+        return false;
+    }
+    if (is_standard(&option[OPTION_TEST_JSON]) && is_standard(&option[OPTION_JUNIT])) {
+        say_usage(COMMAND_TEST, "--json - and --junit -: standard output can take only one of them");
+        return false;
+    }
+    run->folder = option[OPTION_GOLDEN].text;
+    run->output = option[OPTION_TEST_OUTPUT].given ? option[OPTION_TEST_OUTPUT].text : "monge-test";
+    run->old_program = option[OPTION_OLD].text;
+    run->changed_only = option[OPTION_CHANGED].given;
+    run->threads = option[OPTION_THREADS].number[0];
+    run->jobs = option[OPTION_JOBS].given ? option[OPTION_JOBS].number[0] : monge_processors();
+    /* a document must be alone on standard output */
+    FILE *out =
+        is_standard(&option[OPTION_TEST_JSON]) || is_standard(&option[OPTION_JUNIT]) ? stderr : stdout;
+    test->teller = (struct golden_teller){.out = out,
+                                          .tap = option[OPTION_TAP].given,
+                                          .quiet = option[OPTION_QUIET].given,
+                                          .colors = isatty(fileno(out)) && !getenv("NO_COLOR")};
+    test->results.folder = say_text("%s", run->folder);
+    const enum monge_golden_kind kind = (enum monge_golden_kind)option[OPTION_GOLDEN_KIND].choice;
+    if (!loader_begin(&run->loader, args) ||
+        !golden_settings_read(&run->settings, run->folder, option[OPTION_GOLDEN_KIND].given ? &kind : NULL,
+                              &option[OPTION_ROOT], &run->loader))
+        return false;
+    warn_of_tolerances(run);
+    return check_folders(run) && find_scenes(test) && name_scenes(run) &&
+           golden_lock_read(&run->lock, run->folder) && prepare_folder(run);
+}
+
+static void end(struct test *test) {
+    struct golden_run *run = &test->run;
+    for (size_t i = 0; i < run->count; i++) {
+        free(run->scenes[i].name);
+        free(run->scenes[i].cases);
+    }
+    free(run->scenes);
+    golden_results_free(&test->results);
+    golden_results_free(&run->last);
+    golden_lock_free(&run->lock);
+    golden_settings_free(&run->settings);
+    loader_end(&run->loader, NULL);
+}
+
+enum status test_command(const struct arguments *args) {
+    struct test test = {.args = *args, .begun = clock_seconds()};
+    const bool begun = begin(&test, args); /* here a signal may still end the program at once */
+    interrupt_defer();
+    const enum status status = begun ? run_test(&test) : STATUS_TROUBLE;
+    end(&test);
+    streams_flush();
+    interrupt_settle();
+    return status;
+}

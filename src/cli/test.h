@@ -1,8 +1,0 @@
-#ifndef MONGE_CLI_TEST_H
-#define MONGE_CLI_TEST_H
-
-#include "cli/options.h"
-
-enum status test_command(const struct arguments *args);
-
-#endif
