@@ -68,7 +68,7 @@ fails 'failure cannot-write' still.yaml --stats none/x.json
 fails 'failure cannot-write' still.yaml --log none/log
 fails 'failure cannot-write' still.yaml --log /dev/full
 fails 'failure cannot-write' still.yaml --stats /dev/full
-fails 'failure no-frame; failure no-frame' still.yaml also.yaml --frames all -o '{name}-{frame}.png'
+fails 'failure no-frame; failure no-frame' still.yaml also.yaml --frames 2 -o '{name}-{frame}.png'
 fails 'failure outside-region' still.yaml --region 4,4,8,8
 fails 'failure limit-pixels' still.yaml --limit pixels=10
 fails 'failure no-match; failure cannot-make-folder' 'x*.yaml' still.yaml -o file/
