@@ -171,11 +171,11 @@ vec3 trace_ray(const struct tracer *tracer, ray r, const struct media *media, st
 }
 
 bool trace_sight(const struct tracer *tracer, ray r, struct tracing *tracing, struct sight *out) {
-    struct sight sight = {.dir = vec3_normalize(r.dir)};
+    struct sight sight;
     if (!accel_nearest(tracer->accel, &tracing->watch, r, 0.0, INFINITY, &sight.hit)) return false;
     sight.surface = accel_surface(tracer->accel, r, &sight.hit);
     const struct meeting m = {.surface = sight.surface,
-                              .outside = vec3_dot(sight.dir, sight.surface.normal) < 0.0};
+                              .outside = vec3_dot(r.dir, sight.surface.normal) < 0.0};
     sight.normal = shaded_normal(tracer, &m);
     *out = sight;
     return true;

@@ -30,7 +30,6 @@ struct sight {
     struct hit hit;
     struct surface surface;
     vec3 normal; /* world space, unit, on the side that is shaded */
-    vec3 dir;    /* of the ray, unit */
 };
 
 /* False, with *out untouched, where the ray meets nothing. Its direction need not be unit. */

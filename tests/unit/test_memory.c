@@ -170,11 +170,38 @@ static void other_readers_say_so(void **state) {
     assert_true(unlink("small.yaml") == 0 && chdir("/") == 0 && rmdir(folder) == 0);
 }
 
+/* Refuses each request of a rendering in its turn, and of the layers': there is no picture then. */
+static void renderings_say_so(void **state) {
+    (void)state;
+    for (int layers = 0; layers < 2; layers++)
+        for (unsigned request = 1;; request++) {
+            struct monge_diagnostics *diag = monge_diagnostics_new();
+            struct monge_scene *scene = monge_load_memory("small.yaml", text, strlen(text), NULL, diag);
+            assert_non_null(scene);
+            struct monge_settings settings = monge_scene_settings(scene);
+            settings.width = settings.height = 2;
+            const struct monge_job job = {.threads = 1};
+            requests = 0;
+            refused = request;
+            struct monge_film *film = layers ? NULL : monge_render(scene, &settings, NULL, &job, NULL);
+            struct monge_layers *seen =
+                layers ? monge_render_layers(scene, &settings, NULL, MONGE_LAYERS_ALL, &job) : NULL;
+            refused = 0;
+            const bool good = film || seen;
+            monge_film_free(film);
+            monge_layers_free(seen);
+            monge_scene_free(scene);
+            monge_diagnostics_free(diag);
+            assert_int_equal(good, requests < request);
+            if (good) break;
+        }
+}
+
 int main(void) {
-    struct CMUnitTest tests[3 + sizeof tasks / sizeof *tasks] = {cmocka_unit_test(within_any_memory),
-                                                                 cmocka_unit_test(files_are_closed),
-                                                                 cmocka_unit_test(other_readers_say_so)};
+    struct CMUnitTest tests[4 + sizeof tasks / sizeof *tasks] = {
+        cmocka_unit_test(within_any_memory), cmocka_unit_test(files_are_closed),
+        cmocka_unit_test(other_readers_say_so), cmocka_unit_test(renderings_say_so)};
     for (size_t i = 0; i < sizeof tasks / sizeof *tasks; i++)
-        tests[3 + i] = (struct CMUnitTest){tasks[i].name, check_refusals, NULL, NULL, &tasks[i]};
+        tests[4 + i] = (struct CMUnitTest){tasks[i].name, check_refusals, NULL, NULL, &tasks[i]};
     return cmocka_run_group_tests_name("memory", tests, NULL, NULL);
 }
