@@ -127,6 +127,25 @@ static void an_up_along_the_view_gives_way(void **state) {
     assert_vec3_near(view_of(camera, 100, 100).right, (vec3){1, 0, 0}, 2e-8, "right, too little to tell");
 }
 
+static void directions_are_of_any_length(void **state) {
+    (void)state;
+    const double lengths[] = {1e-120, 1e-12, 1e12, 1e120};
+    const vec3 up = {0.2, 1, 0.1}, direction = {1, -0.5, 2};
+    struct camera camera = down_z;
+    camera.up = up;
+    camera.direction = direction;
+    const struct view want = view_of(camera, 100, 100);
+    for (size_t i = 0; i < COUNT(lengths); i++)
+        for (size_t k = 0; k < COUNT(lengths); k++) {
+            camera.up = vec3_scale(up, lengths[i]);
+            camera.direction = vec3_scale(direction, lengths[k]);
+            const struct view view = view_of(camera, 100, 100);
+            assert_vec3_near(view.up, want.up, 1e-15, "up");
+            assert_vec3_near(view.right, want.right, 1e-15, "right");
+            assert_vec3_near(view.eye, want.eye, 1e-14, "eye");
+        }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(perspective_frames_the_ball),
@@ -137,6 +156,7 @@ int main(void) {
         cmocka_unit_test(an_eye_alone_looks_at_the_origin),
         cmocka_unit_test(nothing_given_looks_from_the_right_and_above),
         cmocka_unit_test(an_up_along_the_view_gives_way),
+        cmocka_unit_test(directions_are_of_any_length),
     };
     return cmocka_run_group_tests_name("camera", tests, NULL, NULL);
 }

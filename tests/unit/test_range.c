@@ -154,6 +154,38 @@ static void check_random(void **state) {
     assert_true(empty > 100 && held > 100);
 }
 
+/* Sums of squares of up to three linear functions that all vanish in one point: a little above 0 nothing is left of the
+ * surface, a little below something is. */
+static void check_sums_of_squares(void **state) {
+    (void)state;
+    struct random r = random_begin();
+    int empties = 0, positive = 0;
+    for (int i = 0; i < 20000; i++) {
+        const double sign = random_below(&r, 2) ? 1 : -1, above = random_below(&r, 2) ? 1e-6 : -1e-6;
+        const vec3 zero = random_vec3(&r, -1, 1);
+        struct quadric_form f = {.clip = EVERYWHERE};
+        for (unsigned k = random_below(&r, 3) + 1; k > 0; k--) {
+            vec3 a = random_vec3(&r, -1, 1);
+            if (random_below(&r, 3) == 0) a.x = 0;
+            if (random_below(&r, 3) == 0) a.y = 0;
+            a = vec3_scale(vec3_normalize(a), sqrt(random_between(&r, 0.5, 2)));
+            const double b = -vec3_dot(a, zero);
+            f.xx += a.x * a.x, f.yy += a.y * a.y, f.zz += a.z * a.z;
+            f.xy += 2 * a.x * a.y, f.yz += 2 * a.y * a.z, f.zx += 2 * a.z * a.x;
+            f.x += 2 * a.x * b, f.y += 2 * a.y * b, f.z += 2 * a.z * b;
+            f.constant += b * b;
+        }
+        f.constant += above;
+        double *const terms[] = {&f.xx, &f.yy, &f.zz, &f.xy, &f.yz, &f.zx, &f.x, &f.y, &f.z, &f.constant};
+        for (size_t k = 0; k < COUNT(terms); k++) *terms[k] *= sign;
+        if (above < 0) assert_false(form_is_empty(&f));
+        empties += above > 0 && form_is_empty(&f);
+        positive += above > 0;
+    }
+    printf("# %d of %d empty\n", empties, positive);
+    assert_true(empties > 0.97 * positive);
+}
+
 /* ---- Where rounding decides ---- */
 
 /* The terms of the form at the point, in long double; returns the sum of their magnitudes. */
@@ -252,12 +284,13 @@ static void check_cancelling_at_a_corner(void **state) {
 }
 
 int main(void) {
-    struct CMUnitTest tests[COUNT(rows) + COUNT(boxes) + 3];
+    struct CMUnitTest tests[COUNT(rows) + COUNT(boxes) + 4];
     size_t n = 0;
     for (size_t i = 0; i < COUNT(rows); i++)
         tests[n++] = (struct CMUnitTest){rows[i].name, check_row, NULL, NULL, &rows[i]};
     for (size_t i = 0; i < COUNT(boxes); i++)
         tests[n++] = (struct CMUnitTest){boxes[i].name, check_held, NULL, NULL, &boxes[i]};
+    tests[n++] = (struct CMUnitTest){"sums of squares", check_sums_of_squares, NULL, NULL, NULL};
     tests[n++] = (struct CMUnitTest){"terms that cancel", check_cancelling, NULL, NULL, NULL};
     tests[n++] =
         (struct CMUnitTest){"terms that cancel at a corner", check_cancelling_at_a_corner, NULL, NULL, NULL};

@@ -479,6 +479,19 @@ static void check_bounds_of_scaled_hits(void **state) {
     }
 }
 
+/* What has no end reaches endlessly, along an axis too. */
+static void check_endless_support(void **state) {
+    (void)state;
+    const int shapes[] = {SPACE, QUARTER, PLANE};
+    for (size_t i = 0; i < COUNT(shapes); i++)
+        for (int k = 1; k < 27; k++) {
+            struct alone a;
+            make(&a, shapes[i]);
+            const vec3 d = {k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1};
+            if (vec3_max_abs(d) > 0.0) assert_true(shape_support(&a.p, a.ref, d) == INFINITY);
+        }
+}
+
 /* An instance is no shape: what it places is met elsewhere. */
 static void check_instance(void **state) {
     (void)state;
@@ -502,7 +515,7 @@ static void check_instance(void **state) {
 
 int main(void) {
     struct CMUnitTest tests[COUNT(crossing_rows) + COUNT(first_rows) + COUNT(surface_rows) +
-                            COUNT(contains_rows) + COUNT(bounds_rows) + 6];
+                            COUNT(contains_rows) + COUNT(bounds_rows) + 7];
     size_t n = 0;
     for (size_t i = 0; i < COUNT(crossing_rows); i++)
         tests[n++] =
@@ -512,6 +525,7 @@ int main(void) {
     for (size_t i = 0; i < COUNT(surface_rows); i++)
         tests[n++] = (struct CMUnitTest){surface_rows[i].name, check_surface, NULL, NULL, &surface_rows[i]};
     tests[n++] = (struct CMUnitTest){"edges, from either side", check_edges, NULL, NULL, NULL};
+    tests[n++] = (struct CMUnitTest){"no end, along any direction", check_endless_support, NULL, NULL, NULL};
     tests[n++] = (struct CMUnitTest){"an instance", check_instance, NULL, NULL, NULL};
     tests[n++] = (struct CMUnitTest){"the apex of a cone has a normal", check_apex, NULL, NULL, NULL};
     tests[n++] = (struct CMUnitTest){"errors without infinity", check_endless, NULL, NULL, NULL};
