@@ -56,7 +56,7 @@ CLI_OBJECTS := $(call object,$(filter src/cli/%,$(SOURCES))) $(BUILD)/obj/gen/pa
 TOOL_OBJECTS := $(call object,$(wildcard src/base/*.c src/lang/yaml.c src/lang/events.c src/lang/spelling.c))
 
 UNIT_PROGRAMS := $(UNIT:tests/unit/%.c=$(BUILD)/tests/%)
-TESTS := $(UNIT_PROGRAMS) $(wildcard tests/*.sh)
+TESTS := $(wildcard tests/*.sh) $(UNIT_PROGRAMS)
 ifdef T
 UNIT_PROGRAMS := $(filter %/test_$(T:test_%=%),$(UNIT_PROGRAMS))
 TESTS := $(UNIT_PROGRAMS) $(filter tests/$(T) tests/$(T).sh,$(TESTS))

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Batches that are killed at random moments: tests/kill.sh [PROGRAM]. KILLS: how many, 12 by default (`make kill`: 200);
+# Batches that are killed at random moments: tests/kill.sh [PROGRAM]. KILLS: how many, 6 by default (`make kill`: 200);
 # SEED: of the moments. After each kill every picture is to the byte that of the scene as it is now or as it was before,
 # and nothing else is under a picture's name. A run afterwards finishes the rest, and nothing is left over.
 
@@ -8,7 +8,7 @@ monge=$(realpath "${1:-build/monge}")
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work" || exit 1
-kills=${KILLS:-12} RANDOM=${SEED:-$$}
+kills=${KILLS:-6} RANDOM=${SEED:-$$}
 seed=${SEED:-$$} passed=0 failed=0 during=0 mixed=0 resumed=0
 
 fail() {
