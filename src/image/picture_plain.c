@@ -215,7 +215,7 @@ static void decode_indexed(struct monge_picture *picture) {
 static void decode_plain(struct monge_picture *picture) {
     const size_t step = picture_pixel_size(picture);
     picture->memory = decode_rows(picture, step);
-    picture->rows = picture->memory + 1;
+    picture->rows = picture->memory ? picture->memory + 1 : NULL;
     picture->stride = 1 + picture->width * step;
 }
 
