@@ -346,7 +346,9 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                  "scenes need not be given; without it names are as those of render.",
                  "The new pictures of what has failed, and results.json, are in the folder of the run, for "
                  "`monge accept` "
-                 "to take. Orphans are looked for where no scenes are given, or folders alone; a golden "
+                 "to take. Orphans are looked for where no scenes are given, or folders alone, with a root "
+                 "the root itself; a "
+                 "golden "
                  "whose scene is still there, below the root or else in a folder of the run, one above it, "
                  "or elsewhere below the current one, is none.",
                  "A run that a signal ends writes what it has judged, for `monge accept` to take.",

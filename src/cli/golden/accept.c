@@ -179,6 +179,7 @@ static void remove_orphan(struct acceptance *a, struct golden_case *c) {
 static void settle_case(struct acceptance *a, struct golden_case *c) {
     if (!is_wanted(a, c->name)) return;
     if (c->status == GOLDEN_ORPHAN && a->args->option[OPTION_PRUNE].given) remove_orphan(a, c);
+    if (c->status == GOLDEN_BROKEN && a->args->count > 0) refuse(a, c, "it is broken");
     if (golden_can_take(c) && c->scene && c->scene_name && c->rule_options) take_case(a, c);
 }
 

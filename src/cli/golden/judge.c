@@ -117,14 +117,21 @@ static bool halves_agree(const struct golden_run *run, struct golden_case *c) {
     return miss(c);
 }
 
+static bool has_pass(const struct golden_case *c, enum monge_layer layer) {
+    char *path = aov_path(layer, c->golden_path);
+    const bool there = path_is_file(path);
+    free(path);
+    return there;
+}
+
 /* A rule that asks for passes may be younger than the golden. */
 static bool has_passes(struct golden_case *c) {
-    if (!c->aov) return true;
-    char *path = c->golden_path ? aov_path(MONGE_LAYER_OBJECT, c->golden_path) : NULL;
-    const bool there = path ? path_is_file(path) : *c->old.layers[0];
-    free(path);
-    if (there) return true;
-    golden_add_message(c, "the golden has no passes, which `aov: true` asks for: to accept it adds them");
+    bool all = !c->aov || c->golden_path || *c->old.layers[0];
+    for (enum monge_layer layer = 0; layer < MONGE_LAYERS && c->aov && c->golden_path; layer++)
+        all &= has_pass(c, layer);
+    if (all) return true;
+    golden_add_message(c,
+                       "the golden has not all the passes that `aov: true` asks for: to accept it adds them");
     return miss(c);
 }
 

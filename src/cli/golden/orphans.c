@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/aov.h"
 #include "cli/golden/folder.h"
 #include "cli/paths.h"
 #include "cli/say.h"
@@ -112,12 +113,29 @@ static void add_lines(const struct search *search) {
     }
 }
 
+/* Whether it is NAME.object or so, a pass of a picture of the run, whose golden has gone. */
+static bool is_pass(const struct search *search, const char *name) {
+    bool found = false;
+    for (enum monge_layer layer = 0; layer < MONGE_LAYERS && !found; layer++) {
+        char *file = aov_path(layer, "x.png"), *ending = file + 1, *dot = strrchr(file, '.');
+        *dot = '\0';
+        const size_t all = strlen(name), length = strlen(ending);
+        char *picture = all > length ? say_text("%.*s", (int)(all - length), name) : NULL;
+        found = picture && strcmp(name + all - length, ending) == 0 &&
+                find(search->cases, search->case_count, picture);
+        free(picture);
+        free(file);
+    }
+    return found;
+}
+
 /* Where goldens are hashes, pictures in their folder are for something else. */
 static void add_pictures(const struct search *search) {
     const struct golden_run *run = search->run;
     char **names = golden_names(run->folder);
     for (char **name = names; name && *name; name++)
-        if (is_picture(search, *name) && !golden_lock_find(&run->lock, *name) && is_orphan(search, *name))
+        if (is_picture(search, *name) && !golden_lock_find(&run->lock, *name) && !is_pass(search, *name) &&
+            is_orphan(search, *name))
             add_orphan(search->results, *name, MONGE_GOLDEN_PNG, path_below(run->folder, *name, ".png"));
     golden_names_free(names);
 }
@@ -180,9 +198,19 @@ static void find_renamed(const struct golden_run *run, struct golden_results *re
     free(all);
 }
 
+/* Without a root, scenes of which none has a golden may be called from another folder than the goldens are. */
+static bool knows_goldens(const struct golden_run *run) {
+    bool known = false;
+    for (size_t i = 0; i < run->count && !known; i++)
+        for (size_t k = 0; k < run->scenes[i].count && !known; k++)
+            known = run->scenes[i].cases[k].status != GOLDEN_NEW &&
+                    run->scenes[i].cases[k].status != GOLDEN_BROKEN;
+    return known;
+}
+
 void golden_find_orphans(const struct golden_run *run, struct golden_results *results) {
     struct search search = {.run = run, .results = results};
-    if (!results->places.root && results->places.count == 0) return;
+    if (!results->places.root && (results->places.count == 0 || !knows_goldens(run))) return;
     begin(&search);
     add_lines(&search);
     add_pictures(&search);

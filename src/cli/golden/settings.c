@@ -72,16 +72,17 @@ static bool read_file(struct golden_settings *settings, const struct loader *loa
 static bool find_root(struct golden_settings *settings, const char *folder,
                       const struct option_value *given) {
     const char *root = settings->file ? settings->file->root : NULL;
-    if (given && given->given) {
-        settings->root = realpath(given->text, NULL);
-        if (!settings->root) say_error("--root %s: %s", given->text, strerror(errno));
-        return settings->root;
-    }
-    if (!root) return true;
-    char *path = *root == '/' ? say_text("%s", root) : path_below(folder, root, "");
-    settings->root = realpath(path, NULL);
-    if (!settings->root) say_error("%s: `root`: %s: %s", settings->path, path, strerror(errno));
+    char *path = !root ? NULL : *root == '/' ? say_text("%s", root) : path_below(folder, root, "");
+    char *own = path ? realpath(path, NULL) : NULL;
+    if (path && !own && !(given && given->given))
+        say_error("%s: `root`: %s: %s", settings->path, path, strerror(errno));
     free(path);
+    settings->root = own;
+    if (!given || !given->given) return !root || own;
+    settings->root = realpath(given->text, NULL);
+    if (!settings->root) say_error("--root %s: %s", given->text, strerror(errno));
+    settings->other_root = root && settings->root && (!own || strcmp(own, settings->root) != 0);
+    free(own);
     return settings->root;
 }
 

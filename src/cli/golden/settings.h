@@ -15,6 +15,7 @@ struct golden_rule {
 
 struct golden_settings {
     char *path, *root;              /* owned; root: NULL where there is none, else without links or dots */
+    bool other_root;                /* it is not that of the file, which has one */
     struct monge_goldens *file;     /* NULL: there is none */
     struct monge_golden_rule other; /* where no rule matches */
     struct golden_rule *rules;      /* of the file, and `other` last */

@@ -126,11 +126,16 @@ static bool name_scenes(struct golden_run *run) {
 
 /* Whether the operands may tell all scenes: each is a folder, and was read. */
 static bool names_all(const struct test *test) {
+    const struct golden_settings *settings = &test->run.settings;
+    bool has_root = !settings->root || test->args.count == 0;
     for (size_t i = 0; i < test->args.count; i++) {
         struct stat status;
         if (stat(test->args.operands[i], &status) != 0 || !S_ISDIR(status.st_mode)) return false;
+        char *real = realpath(test->args.operands[i], NULL);
+        has_root |= real && settings->root && strcmp(real, settings->root) == 0;
+        free(real);
     }
-    return test->run.loader.scenes.status == STATUS_YES;
+    return has_root && !settings->other_root && test->run.loader.scenes.status == STATUS_YES;
 }
 
 /* Where a golden's scene must be gone from, so that it is an orphan. */
