@@ -8,19 +8,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "cli/paths.h"
 #include "cli/say.h"
 
 bool is_pattern(const char *path) { return strpbrk(path, "*?[") != NULL; }
-
-static bool is_folder(const char *path) {
-    struct stat status;
-    return stat(path, &status) == 0 && S_ISDIR(status.st_mode);
-}
-
-static bool is_link(const char *path) {
-    struct stat status;
-    return lstat(path, &status) == 0 && S_ISLNK(status.st_mode);
-}
 
 static int compare_texts(const void *a, const void *b) {
     return strcmp(*(char *const *)a, *(char *const *)b);
@@ -70,7 +61,7 @@ static void match(struct matches *matches, const char *folder, const char *patte
 static void match_rest(struct matches *matches, const char *path, const char *rest) {
     if (!*rest) {
         if (access(path, F_OK) == 0) add_match(matches, path);
-    } else if (is_folder(path)) {
+    } else if (path_is_folder(path)) {
         char *folder = say_text("%s/", path);
         match(matches, folder, rest + strspn(rest, "/"));
         free(folder);
@@ -87,7 +78,7 @@ static void match_below(struct matches *matches, const char *folder, const char 
         add_match(matches, *folder ? folder : ".");
     for (char **name = names; *rest && name && *name; name++) {
         char *path = say_text("%s%s", folder, *name), *inner = say_text("%s/", path);
-        if (is_folder(path) && !is_link(path)) match_below(matches, inner, pattern);
+        if (path_is_folder(path) && !path_is_link(path)) match_below(matches, inner, pattern);
         free(path);
         free(inner);
     }

@@ -9,17 +9,13 @@
 #include <unistd.h>
 
 #include "cli/aov.h"
+#include "cli/paths.h"
 #include "cli/pattern.h"
 #include "cli/say.h"
 
 /* ---- Names ---- */
 
 static bool is_stream(const char *path) { return strcmp(path, "-") == 0; }
-
-static bool is_folder(const char *path) {
-    struct stat status;
-    return stat(path, &status) == 0 && S_ISDIR(status.st_mode);
-}
 
 /* A pipe or a device: may be written more than once, and is not replaced. */
 static bool is_special(const char *path) {
@@ -59,7 +55,7 @@ static char *picture_path(const struct plan *plan, const struct output *output, 
     if (frame > 0 && last == 0) values.frames = false;
     if (!path) return is_stream(output->scene) ? say_text("-") : usual_file(plan, &values);
     const bool slash = ends_in_slash(path);
-    if (!slash && !is_folder(path)) return path;
+    if (!slash && !path_is_folder(path)) return path;
     char *name = usual_file(plan, &values);
     path = joined(joined(path, slash ? "" : "/"), name);
     free(name);
@@ -93,7 +89,7 @@ static bool check_pattern(const struct plan *plan) {
     const char *wanted = plan->wanted;
     if (!wanted || is_stream(wanted)) return true;
     if (!pattern_check(wanted, plan->sweep, plan->frames != NULL)) return false;
-    if (ends_in_slash(wanted) || is_folder(wanted) || is_special(wanted)) return true;
+    if (ends_in_slash(wanted) || path_is_folder(wanted) || is_special(wanted)) return true;
     const bool no_frame = many_frames(plan) && !pattern_has_frame(wanted);
     const bool one_file = plan->count > 1 && pattern_is_plain(wanted, plan->frames != NULL);
     if (!no_frame && !one_file) return true;
@@ -112,7 +108,7 @@ static bool check_extension(const char *wanted) {
     static const char *const others[] = {"jpg",  "jpeg", "gif", "bmp", "tif", "tiff", "webp",
                                          "avif", "ppm",  "exr", "hdr", "tga", "svg",  "pdf"};
     const char *dot = strrchr(wanted + folder_length(wanted), '.');
-    if (!dot || is_folder(wanted) || is_special(wanted)) return true;
+    if (!dot || path_is_folder(wanted) || is_special(wanted)) return true;
     for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
         if (strcasecmp(dot + 1, others[i]) != 0) continue;
         say_usage(COMMAND_RENDER, "-o %s: pictures are PNG; did you mean %.*s.png?", wanted,
@@ -261,7 +257,7 @@ static bool make_folder(struct plan *plan, char *path) {
     for (char *slash = strchr(path + 1, '/'); slash; slash = strchr(slash + 1, '/')) {
         *slash = '\0';
         const int reason = mkdir(path, 0777) == 0 ? 0 : errno;
-        const bool there = is_folder(path);
+        const bool there = path_is_folder(path);
         if (!there) tell_lost(plan, path, reason);
         *slash = '/';
         if (!there) return false;
@@ -296,7 +292,7 @@ static bool check_folder(const struct report *report, const char *path) {
 /* Whether folders are made: a FILE of -o asks for none, so that a slip of the pen makes none. */
 static bool makes_folders(const struct plan *plan) {
     const char *wanted = plan->wanted;
-    return !wanted || ends_in_slash(wanted) || is_folder(wanted) ||
+    return !wanted || ends_in_slash(wanted) || path_is_folder(wanted) ||
            !pattern_is_plain(wanted, plan->frames != NULL);
 }
 

@@ -29,16 +29,6 @@ struct search {
 static bool is_stream(const char *path) { return strcmp(path, "-") == 0; }
 static bool is_there(const char *path) { return access(path, F_OK) == 0; }
 
-static bool is_folder(const char *path) {
-    struct stat status;
-    return stat(path, &status) == 0 && S_ISDIR(status.st_mode);
-}
-
-static bool is_link(const char *path) {
-    struct stat status;
-    return lstat(path, &status) == 0 && S_ISLNK(status.st_mode);
-}
-
 /* ---- What is wrong ---- */
 
 /* An operand, or a line of a list, stands for nothing. */
@@ -102,8 +92,8 @@ static void walk(struct search *search, const char *folder, size_t below);
 
 /* Something in a folder; `below`: where in the path the name of a scene begins. */
 static void walk_entry(struct search *search, const char *path, size_t below) {
-    if (is_folder(path)) {
-        if (!is_link(path)) walk(search, path, below);
+    if (path_is_folder(path)) {
+        if (!path_is_link(path)) walk(search, path, below);
         return;
     }
     if (!scene_extension(path)) return;
@@ -283,13 +273,14 @@ static void add_pattern(struct search *search, const char *pattern) {
     if (matches.count == 0) report_trouble(search, pattern, "no file matches");
     for (size_t i = 0; i < matches.count; i++) {
         const char *path = matches.paths[i], *name = matches_varying(pattern, path);
-        is_folder(path) ? add_folder(search, path, (size_t)(name - path)) : add_scene(search, path, name);
+        path_is_folder(path) ? add_folder(search, path, (size_t)(name - path))
+                             : add_scene(search, path, name);
     }
     matches_free(&matches);
 }
 
 static void add_name(struct search *search, const char *name) {
-    if (is_folder(name))
+    if (path_is_folder(name))
         add_folder(search, name, strlen(name));
     else if (is_pattern(name) && !is_there(name))
         add_pattern(search, name);
