@@ -2,58 +2,7 @@
 # Tests of the command line: tests/cli.sh [PROGRAM], build/monge by default. Works in a folder of its
 # own. Tests that need a tool which is not here (python3, perl, script, man, zsh, fish) are left out.
 
-monge=$(realpath "${1:-build/monge}")
-[ -x "$monge" ] || { echo "cli: no program $monge" >&2; exit 1; }
-sources=$(realpath "$(dirname "$0")/../src")
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
-unset COLUMNS
-
-passed=0 failed=0
-
-# ---- How to test ----
-
-# run ARGS...: out, err and $status are what monge made of it.
-run() {
-    last=$*
-    "$monge" "$@" >out 2>err </dev/null
-    status=$?
-}
-
-# The pixels of a picture, as it tells their hash; what else it says may differ.
-pixels_of() { tr -d '\0' <"$1" | grep -ao 'monge:pixels[0-9a-f]*'; }
-same_pixels() { [ -n "$(pixels_of "$1")" ] && [ "$(pixels_of "$1")" = "$(pixels_of "$2")" ]; }
-
-# ok NAME COMMAND...: a test that passes when the command succeeds.
-ok() {
-    local name=$1
-    shift
-    if "$@" >/dev/null 2>&1; then
-        passed=$((passed + 1))
-    else
-        failed=$((failed + 1))
-        echo "FAILED: $name"
-        echo "    failed: $*; after: monge $last; exit $status; stderr:"
-        sed 's/^/    | /' err
-    fi
-}
-
-# exits STATUS ARGS...: runs monge; a test of its exit status.
-exits() {
-    local want=$1
-    shift
-    run "$@"
-    ok "exit $want: monge $*" [ "$status" -eq "$want" ]
-}
-
-out_has() { ok "stdout has \`$1\`" grep -qF -e "$1" out; }
-err_has() { ok "stderr has \`$1\`" grep -qF -e "$1" err; }
-no_out() { ok "nothing on stdout" [ ! -s out ]; }
-no_err() { ok "nothing on stderr" [ ! -s err ]; }
-is_png() { ok "$1 is a PNG" sh -c 'head -c 8 "$1" | od -An -tx1 | tr -d " \n" | grep -qx 89504e470d0a1a0a' sh "$1"; }
-missing() { ok "$1 is not there" [ ! -e "$1" ]; }
-no_temporaries() { ok "no temporary files" [ -z "$(find . -name '*.tmp')" ]; }
+. "$(dirname "$0")/lib/testing.sh"
 
 # png_size FILE WIDTH HEIGHT
 png_size() {
@@ -62,30 +11,8 @@ png_size() {
 
 # The size and the sum of what is in a picture, without its text.
 pixels() { tail -c "+$(grep -abo IDAT "$1" | head -n 1 | cut -d: -f1)" "$1" | cksum; }
-same_pixels() { [ "$(pixels "$1")" = "$(pixels "$2")" ]; }
-other_pixels() { ! same_pixels "$1" "$2"; }
-
-have() { command -v "$1" >/dev/null; }
-
-# signalled SIGNAL SECONDS ARGS...: sends the signal to monge after some time. $status is what waitpid
-# has: the number of the signal that ended monge, 256 times its exit status, or 9 if it had to be killed.
-signalled() {
-    last="${*:3} (signal $1)"
-    perl -e '
-        my ($signal, $seconds, @command) = @ARGV;
-        my $pid = fork;
-        if (!$pid) { $SIG{INT} = $ENV{IGNORED} ? "IGNORE" : "DEFAULT"; exec @command or exit 99; }
-        select undef, undef, undef, $seconds;
-        kill $signal, $pid;
-        if ($ENV{THEN}) { select undef, undef, undef, 0.2; system $ENV{THEN}; }
-        $SIG{ALRM} = sub { kill "KILL", $pid };
-        alarm 8;
-        waitpid $pid, 0;
-        print STDERR "";
-        open my $file, ">", "wait"; print $file $?;
-    ' "$1" "$2" "$monge" "${@:3}" >out 2>err
-    status=$(cat wait)
-}
+same_pixels() { [ -s "$1" ] && [ "$(pixels "$1")" = "$(pixels "$2")" ]; }
+other_pixels() { [ -s "$1" ] && [ -s "$2" ] && ! same_pixels "$1" "$2"; }
 
 small=(--size 16x12)
 long=(--size 4000x4000 --samples 65536)
@@ -189,7 +116,7 @@ for option in output size samples region shading shadow no\\-shadows depth bits 
     out_has "\\-\\-$option"
 done
 out_has '.SH FILES'; out_has '.NAME.png.partial'; out_has 'monge\-test/'; out_has '.SH ENVIRONMENT'; out_has 'in share/doc/monge,'
-for variable in $(grep -rhoE 'getenv\("[A-Z_]+' "$sources" | cut -d'"' -f2 | sort -u); do out_has ".B $variable"; done
+for variable in $(grep -rhoE 'getenv\("[A-Z_]+' "$project/src" | cut -d'"' -f2 | sort -u); do out_has ".B $variable"; done
 ok "no folder that is not installed" sh -c '! grep -q grammar/ out'
 have man && ok "the manual page has no roff warnings" [ -z "$(LC_ALL=C.UTF-8 man --warnings -l out 2>&1 >/dev/null)" ]
 exits 0 help --completion bash; cp out completion.bash
@@ -284,7 +211,7 @@ exits 2 render one.yaml --size 65535x65535; err_has 'one.yaml: '; missing one.pn
 
 # ---- Where pictures go ----
 
-exits 0 render one.yaml "${small[@]}"; is_png one.png; png_size one.png 16 12; no_out; no_temporaries
+exits 0 render one.yaml "${small[@]}"; is_png one.png; png_size one.png 16 12; no_out; no_leftovers
 err_has 'wrote one.png  16x12  '
 ok "one line for one picture" [ "$(wc -l <err)" -eq 1 ]
 cp one.png expected.png
@@ -368,7 +295,7 @@ last='render with a full disk'
 (trap '' XFSZ; ulimit -f 0; "$monge" render "${small[@]}" -q one.yaml -o kept.png 2>/dev/null); status=$?
 ok "a full disk is exit 2" [ $status -eq 2 ]
 ok "a full disk leaves the old picture" [ "$(cat kept.png)" = old ]
-no_temporaries
+no_leftovers
 ln -s kept.png through.png
 exits 0 render "${small[@]}" one.yaml -o through.png; is_png kept.png; ok "a link stays one" [ -L through.png ]
 
@@ -376,7 +303,7 @@ exits 0 render "${small[@]}" one.yaml -o through.png; is_png kept.png; ok "a lin
 
 rm -f one.png
 exits 0 render one.yaml "${small[@]}" -q -o expected.png
-exits 0 render one.yaml "${small[@]}" --aov object,material,depth,normal,shadow; is_png one.png; no_temporaries
+exits 0 render one.yaml "${small[@]}" --aov object,material,depth,normal,shadow; is_png one.png; no_leftovers
 ok "passes change nothing of the picture" same_pixels one.png expected.png
 for pass in object material normal shadow; do
     is_png one.$pass.png; png_size one.$pass.png 16 12
@@ -417,11 +344,11 @@ exits 2 render clash.yaml --aov object --stats clash.object.png; err_has 'would 
 cp one.yaml clash.depth.pfm
 exits 2 render clash.depth.pfm --aov depth -o clash.png; err_has 'clash.depth.pfm would be written over'
 mkdir clash.normal.png
-exits 2 render clash.yaml "${small[@]}" --aov normal,depth; err_has 'cannot write clash.normal.png'; no_temporaries
+exits 2 render clash.yaml "${small[@]}" --aov normal,depth; err_has 'cannot write clash.normal.png'; no_leftovers
 rmdir clash.normal.png
-signalled INT 0.3 render one.yaml "${long[@]}" --aov object -q -o passes/never.png
+signalled INT 'sleep 0.2' render one.yaml "${long[@]}" --aov object -q -o passes/never.png
 ok "an interrupted picture has no passes" [ "$status" -eq 2 -a ! -e passes/never.png -a ! -e passes/never.object.png ]
-no_temporaries
+no_leftovers
 
 # ---- Parameters and sweeps ----
 
@@ -489,8 +416,7 @@ ok "standard input with a sweep" [ $status -eq 0 ]; ok "its first" cmp s1.png p/
 "$monge" check - -D a=1,2 <params.yaml >out 2>err; ok "check of it" [ "$(grep -c ok out)" -eq 2 ]
 exits 0 render "${small[@]}" -q params.yaml -D a=1,2 -D b=1 --stats s.json
 ok "the statistics have the parameters" grep -qF '"params": {"a": "2", "b": "1"}' s.json
-exits 0 render --size 640x480 --samples 16 --threads 1 params.yaml -D a=1,2 --progress always -o 'p{a}.png'
-err_has '0 of 2 pictures  params  ['
+patient '0 of 2 pictures  params  [' params.yaml -D a=1,2 --size 640x480 --progress always -o 'p{a}.png'
 exits 1 render "${small[@]}" params.yaml -D a=1,-1,2; err_has '2 rendered, 1 failed'
 cd ..
 
@@ -615,10 +541,10 @@ sed 's/^scene/materials: {unused: {}}\nscene/; s/radius: 1/radius: 0.5 + t/' vie
 exits 0 render "${small[@]}" warned.yaml --frames all -o w/; ok "a warning is told once" [ "$(grep -c warning err)" -eq 1 ]
 exits 0 render "${small[@]}" warned.yaml --frames all -o w/ --format json; ok "in JSON as well" [ "$(grep -c '"warning"' err)" -eq 1 ]
 
-exits 0 render --size 640x480 --samples 16 --threads 1 view.yaml --frames 5 --progress always -o p.png; err_has 'view  frame 5 of 12  ['
+patient 'view  frame 5 of 12  [' view.yaml --frames 5 --size 640x480 --progress always -o p.png
 if have perl; then
-    signalled INT 1 render --size 300x200 --samples 64 --threads 1 view.yaml --frames all -o cut/ --stats cut.json
-    ok "SIGINT between frames ends monge" [ "$status" -eq 2 ]; missing cut/view-0012.png; no_temporaries
+    signalled INT '[ -e cut/view-0001.png ]' render --size 300x200 --samples 64 --threads 1 view.yaml --frames all -o cut/ --stats cut.json
+    ok "SIGINT between frames ends monge" [ "$status" -eq 2 ]; missing cut/view-0012.png; no_leftovers
     ok "statistics are of what is there" [ "$(grep -o 'cut/view-[0-9]*.png' cut.json)" = "$(ls cut/*.png 2>/dev/null)" ]
     ok "and so is what is told" grep -q "^interrupted: $(ls cut | wc -l) of 12 rendered" err
     ok "what is there is whole" [ -z "$(for f in cut/*.png; do [ ! -e "$f" ] || tail -c 8 "$f" | grep -q IEND || echo "$f"; done)" ]
@@ -645,7 +571,7 @@ exits 1 render nest.yaml "${small[@]}" -o nest.png; err_has 'nest.yaml:10:5: err
 err_has 'instances at one place multiply with each level: move them apart, or place one alone'
 ok "it says no more than that" [ "$(grep -c -e error -e memory err)" -eq 1 ]
 exits 1 render nest.yaml -D levels=28,3 "${small[@]}" -o 'nest-{levels}.png'; err_has '1 rendered, 1 failed'
-missing nest-28.png; is_png nest-3.png; no_temporaries
+missing nest-28.png; is_png nest-3.png; no_leftovers
 exits 1 render nest.yaml "${small[@]}" --format json -o nest.png; err_has '"code": "limit-instances"'; missing nest.png
 exits 0 check nest.yaml
 
@@ -758,7 +684,7 @@ printf -- '- add: sphere\n- add: light\n  at: [-10, 10, -10]\n  intensity: [1, 1
 printf -- '- add: sphre\n' >wrongbook.yml
 exits 0 import book.yml; out_has '- sphere: {}'; err_has 'book.yml:1:1: warning[import-missing]: there is no camera'
 cp out imported.yaml
-exits 0 import book.yml -o book.yaml; ok "-o gives the same" cmp imported.yaml book.yaml; no_out; no_temporaries
+exits 0 import book.yml -o book.yaml; ok "-o gives the same" cmp imported.yaml book.yaml; no_out; no_leftovers
 exits 0 check book.yaml
 last='import - <book.yml | render -'
 "$monge" import - <book.yml 2>err | "$monge" render "${small[@]}" -q - >out 2>>err; status=$?
@@ -814,31 +740,31 @@ last='render -o - --stats t.json with a full disk'
 (trap '' XFSZ; ulimit -f 0; "$monge" render "${small[@]}" -q one.yaml -o - --stats t.json 2>&1 >/dev/null | cat >/dev/null; exit "${PIPESTATUS[0]}")
 status=$?
 ok "a full disk for the statistics is exit 2" [ $status -eq 2 ]; missing t.json
-no_temporaries
+no_leftovers
 
 # ---- Progress ----
 
-exits 0 render --size 640x480 --samples 16 --threads 1 one.yaml --progress always -o p.png
+patient 'left' one.yaml --size 640x480 --progress always -o p.png
 ok "a bar, which the last line replaces" grep -qE $'^\rone  \\[.*left.*\r +\rwrote p.png' err
 ok "one line in the end" [ "$(wc -l <err)" -eq 1 ]
 rm -f p.png
 if have perl; then
-    signalled INT 1 render "${lively[@]}" one.yaml --progress always -o p.png
+    signalled INT 'grep -q left err && sleep 1' render "${lively[@]}" one.yaml --progress always -o p.png
     ok "always: a bar" grep -qE 'one  \[[#-]+\] +[0-9]+%  [0-9:]+ left' err
-    ok "at most ten a second" [ "$(tr '\r' '\n' <err | grep -c left)" -le 11 ]
+    ok "at most ten a second" [ "$(tr '\r' '\n' <err | grep -c left)" -le "$(awk -v took=$took 'BEGIN { print int(10 * took) }')" ]
     ok "one line, no escapes" [ "$(tr -d '\r' <err | wc -l)" -eq 1 -a "$(grep -c $'\033' err)" -eq 0 ]
     ok "the bar is gone in the end" grep -qE $'\r +\rinterrupted: 0 of 1 rendered$' err
-    signalled INT 0.5 render "${lively[@]}" one.yaml -o p.png
+    signalled INT 'sleep 0.5' render "${lively[@]}" one.yaml -o p.png
     ok "auto: no bar in a pipe" [ "$(cat err)" = 'interrupted: 0 of 1 rendered' ]
 fi
 if have script && have perl; then
     on_terminal() { script -qec "stty cols ${columns:-60}; export TERM=${term:-xterm}; $*" /dev/null </dev/null >terminal 2>&1; status=$?; last="on a terminal: $*"; }
-    bar="perl -e 'my \$p = fork; exec \"$monge\", qw(render ${lively[*]} one.yaml -o p.png) if !\$p; select undef, undef, undef, 0.6; kill TERM => \$p; waitpid \$p, 0'"
-    on_terminal "$bar"
+    bar() { on_terminal "perl '$project/tests/lib/signalled.pl' TERM '$1' '$monge' render ${lively[*]} one.yaml -o p.png 3>waited"; }
+    bar 'grep -q left terminal'
     ok "auto: a bar on a terminal" grep -q 'left' terminal
     ok "no wider than the terminal" [ -z "$(tr '\r' '\n' <terminal | grep -E '.{60}')" ]
-    term=dumb on_terminal "$bar"; ok "auto: none on a dumb one" [ "$(tr -d '\r' <terminal)" = 'interrupted: 0 of 1 rendered' ]
-    columns=20 on_terminal "$bar"
+    term=dumb bar 'sleep 0.5'; ok "auto: none on a dumb one" [ "$(tr -d '\r' <terminal)" = 'interrupted: 0 of 1 rendered' ]
+    columns=20 bar 'grep -q % terminal'; ok "a bar on a narrow terminal" grep -q % terminal
     ok "no wider than a narrow terminal" [ -z "$(tr '\r' '\n' <terminal | grep -v ^interrupted | grep -E '.{20}')" ]
     on_terminal "$monge render -q ${small[*]} one.yaml -o -"
     ok "no PNG to a terminal" grep -q 'not for a terminal' terminal
@@ -852,23 +778,22 @@ exits 0 help; out_has 'shell shows as 130, 143 and 129'; exits 0 help --man; out
 if have perl; then
     rm -f p.png
     for row in 'INT 2' 'TERM 15' 'HUP 1'; do
-        signalled ${row% *} 0.4 render "${long[@]}" one.yaml -o p.png --stats p.json
+        signalled ${row% *} 'sleep 0.2' render "${long[@]}" one.yaml -o p.png --stats p.json
         ok "SIG${row% *} ends monge by the same signal" [ "$status" -eq "${row#* }" ]
         ok "SIG${row% *} is told" [ "$(cat err)" = 'interrupted: 0 of 1 rendered' ]
         ok "statistics of nothing" grep -q '"pictures"' p.json; rm -f p.json
-        missing p.png; no_temporaries; no_out
+        missing p.png; no_leftovers; no_out
     done
     # 2^18 times a geometry at one place, and 60,000 rays in the only pixel: it takes hours
-    signalled TERM 0.8 render nest.yaml -D levels=18 -D balls=100000 --size 1x1 --samples 60000 -o p.png
-    ok "SIGTERM while a ray is on its way" [ "$status" -eq 15 ]; missing p.png; no_temporaries
+    signalled TERM 'sleep 0.8' render nest.yaml -D levels=18 -D balls=100000 --size 1x1 --samples 60000 -o p.png
+    ok "SIGTERM while a ray is on its way" [ "$status" -eq 15 ]; missing p.png; no_leftovers
     mkfifo pipe
-    sleep 3 | signalled TERM 0.3 render - -o p.png
-    status=$(cat wait)
+    exec 4<>pipe; EARLY=1 signalled TERM 'sleep 0.5' render - -o p.png <&4; exec 4<&- # there is no handler before there is work
     ok "SIGTERM while a scene is read" [ "$status" -eq 15 ]
-    signalled INT 0.4 render "${small[@]}" one.yaml -o pipe
+    signalled INT 'sleep 0.2' render "${small[@]}" one.yaml -o pipe
     ok "SIGINT while a pipe has no reader" [ "$status" -eq 2 ]; ok "nothing but that is told" [ "$(cat err)" = 'interrupted: 0 of 1 rendered' ]
-    signalled INT 0.4 render -q "${long[@]}" one.yaml -o p.png; ok "SIGINT, quiet" [ "$status" -eq 2 ]; no_err
-    IGNORED=1 THEN='cat pipe > frompipe.png' signalled INT 0.4 render "${small[@]}" -q one.yaml -o pipe
+    signalled INT 'sleep 0.2' render -q "${long[@]}" one.yaml -o p.png; ok "SIGINT, quiet" [ "$status" -eq 2 ]; no_err
+    IGNORED=1 THEN='sleep 0.2; cat pipe > frompipe.png' signalled INT 'sleep 0.2' render "${small[@]}" -q one.yaml -o pipe
     ok "an ignored SIGINT stays ignored" [ "$status" -eq 0 ]
     ok "a pipe takes a picture" cmp frompipe.png expected.png
 fi
@@ -877,7 +802,6 @@ last='render -o - into a pipe that closes'
 "$monge" render --size 900x900 --bits 16 -q one.yaml -o - | head -c 10 >/dev/null
 status=${PIPESTATUS[0]}
 ok "a closed pipe ends monge by SIGPIPE" [ "$status" -eq 141 ]
-no_temporaries
+no_leftovers
 
-echo "$passed passed, $failed failed"
-[ "$failed" -eq 0 ]
+told

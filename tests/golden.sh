@@ -2,48 +2,10 @@
 # Tests of monge test and monge accept: tests/golden.sh [PROGRAM], build/monge by default. Works in a folder of its own.
 # Tests that need a tool which is not here (python3, git, perl) are left out.
 
-monge=$(realpath "${1:-build/monge}")
-[ -x "$monge" ] || { echo "golden: no program $monge" >&2; exit 1; }
-tools=$(realpath "$(dirname "$0")/../tools/ci")
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
+. "$(dirname "$0")/lib/testing.sh"
+tools=$project/tools/ci
 export NO_COLOR=1
 
-passed=0 failed=0
-
-# ok NAME COMMAND...: a test that passes when the command succeeds.
-ok() {
-    local name=$1
-    shift
-    if "$@" >/dev/null 2>&1; then
-        passed=$((passed + 1))
-    else
-        failed=$((failed + 1))
-        echo "FAILED: $name"
-        echo "    failed: $*; after: monge $last; exit $status"
-        sed 's/^/    | /' out err
-    fi
-}
-
-# exits STATUS ARGS...: runs monge; a test of its exit status. out and err are what it says.
-exits() {
-    local want=$1
-    shift
-    last=$*
-    "$monge" "$@" >out 2>err </dev/null
-    status=$?
-    ok "exit $want: monge $*" [ "$status" -eq "$want" ]
-}
-
-out_has() { ok "stdout has \`$1\`" grep -qF -e "$1" out; }
-out_lacks() { ok "stdout lacks \`$1\`" sh -c '! grep -qF -e "$1" out' sh "$1"; }
-err_has() { ok "stderr has \`$1\`" grep -qF -e "$1" err; }
-no_err() { ok "nothing on stderr" [ ! -s err ]; }
-no_out() { ok "nothing on stdout" [ ! -s out ]; }
-there() { ok "$1 is there" [ -f "$1" ]; }
-missing() { ok "$1 is not there" [ ! -e "$1" ]; }
-have() { command -v "$1" >/dev/null; }
 # says STATUS NAME: the line of a golden.
 says() { ok "$2 is $1" grep -qE "^$1 +$2(  |$)" out; }
 sums() { find "$1" -type f -exec cksum {} + | sort; }
@@ -830,10 +792,8 @@ ok 'a full disk is exit 2' [ $status -eq 2 ]
 ok 'no temporary files' [ -z "$(find . -name '*.tmp')" ]
 if have perl; then
     fresh; sed -i 's/40, 30/3000, 3000/; s/samples: 1/samples: 4096/' s/one.yaml
-    last='test (SIGINT)'
-    perl -e 'my $p = fork; exec @ARGV if !$p; select undef, undef, undef, 0.5; kill INT => $p; waitpid $p, 0; exit(($? & 127) == 2 ? 0 : 1)' \
-        "$monge" test s --golden g >out 2>err; status=$?
-    ok 'SIGINT ends the run by the signal' [ $status -eq 0 ]; ok 'one is not judged' grep -q '"interrupted": ' monge-test/results.json
+    signalled INT 'sleep 0.3' test s --golden g
+    ok 'SIGINT ends the run by the signal' [ $status -eq 2 ]; ok 'one is not judged' grep -q '"interrupted": ' monge-test/results.json
     missing monge-test/new/one.png
     # interrupted ARGS...: of five scenes and a golden without one, b and c are judged when the signal comes, d is rendered
     interrupted() {
@@ -842,7 +802,7 @@ if have perl; then
         sed -i 's/40/50/' s/*.yaml; printf 'image: {size: [3000, 3000], samples: 4096}\nscene: [{sphere: {}}]\n' >s/d.yaml
         last="test $* (SIGTERM)"
         "$monge" test s --golden g -j 1 "$@" >out 2>err & local pid=$!
-        until grep -q '[0-9 ]  *- c$\|^changed  *c ' out; do kill -0 $pid || break; sleep 0.02; done
+        await "grep -q '[0-9 ]  *- c$\|^changed  *c ' out"
         sleep 0.2; kill -TERM $pid; wait $pid; status=$?
         ok 'it ends by the signal' [ $status -eq 143 ]; ok 'and says so' [ "$(cat err)" = 'interrupted: 3 of 5 scenes not judged' ]
         ok 'only what is judged is there' [ "$(find monge-test -name '*.png' | sort | xargs -n 1 basename | tr '\n' ' ')" = 'b.png c.png ' ]
@@ -858,5 +818,4 @@ if have perl; then
     rm s/d.yaml; exits 1 test s --golden g -q; ok 'then all is judged' grep -q '4 changed, 1 orphan' out; ok 'a whole run' sh -c '! grep -q interrupted monge-test/results.json'
 fi
 
-echo "$passed passed, $failed failed"
-[ "$failed" -eq 0 ]
+told

@@ -3,13 +3,9 @@
 # SEED: of the moments. After each kill every picture is to the byte that of the scene as it is now or as it was before,
 # and nothing else is under a picture's name. A run afterwards finishes the rest, and nothing is left over.
 
-monge=$(realpath "${1:-build/monge}")
-[ -x "$monge" ] || { echo "kill: no program $monge" >&2; exit 1; }
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
+. "$(dirname "$0")/lib/testing.sh"
 kills=${KILLS:-6} RANDOM=${SEED:-$$}
-seed=${SEED:-$$} passed=0 failed=0 during=0 mixed=0 resumed=0
+seed=${SEED:-$$} during=0 mixed=0 resumed=0
 
 fail() {
     failed=$((failed + 1))
@@ -29,9 +25,8 @@ scenes() {
 batch() { "$monge" render s -o p/ --resume -j 2 --threads $((RANDOM % 3 + 1)) >said 2>&1; }
 
 mkdir s versions
-samples=4; scenes 1
-TIMEFORMAT=%U once=$({ time "$monge" render -q s/long.yaml -o probe.png; } 2>&1)
-samples=$(awk -v once="$once" 'BEGIN { n = int(6 / (once + 0.001)) + 1; print n < 400 ? n : 400 }') # 1.5 s of a processor
+samples=1; scenes 1
+samples=$(samples_for 1.5 s/long.yaml)
 for version in 1 2; do
     scenes $version
     begun=$(date +%s%N)
@@ -84,5 +79,4 @@ finish
 [ $during -eq "$kills" ] || fail "only $during of $((n - 1)) runs were at work when they were killed"
 echo "kill: $during of $((n - 1)) runs killed at work, $mixed with pictures of both versions, $resumed runs went on from checkpoints"
 [ -z "$(find p -name '*.tmp')" ] || echo "kill: $(find p -name '*.tmp' | wc -l) temporary files"
-echo "kill: $passed passed, $failed failed"
-[ "$failed" -eq 0 ]
+told
