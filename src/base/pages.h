@@ -4,9 +4,8 @@
 
 #include <stddef.h>
 
-/* Room for `size` bytes that are all going to be written soon, for free(); NULL: there is none. As malloc's, but that the
- * system is asked for it in one piece and in large pages: to get 4 KiB at a time, as each is first written to, takes
- * longer than to inflate a picture into them. */
+/* Room for `size` bytes that are all going to be written soon, for free(); NULL: there is none. As malloc's, but in large
+ * pages: to get 4 KiB at a time, as each is first written to, takes longer than to inflate a picture into them. */
 void *pages_alloc(size_t size);
 
 #endif
