@@ -584,6 +584,21 @@ fi
 exits 0 accept one --golden g; exits 0 test s/one.yaml --golden g --changed --junit junit.xml --tap
 out_has '# SKIP unchanged'; ok 'JUnit skips' grep -q '<skipped' junit.xml
 
+fresh; printf 'animation: {frames: 2}\nimage: {size: [400, 300]}\nscene: [{sphere: {}}]\n' >s/two.yaml; printf 'scene: [{spere: {}}]\n' >s/in/wrong.yaml
+printf 'rules: [{scenes: two, options: --frames all}]\n' >g/golden.yaml
+exits 1 test s --golden g -j 2 --progress json; out_has '5 goldens: 4 new, 1 broken'
+ok 'all are done in the end' grep -q '^{"done": 5, "total": 5, "rendered": 4, "unchanged": 0, "failed": 1, "part": 1.0000, .*"seconds_left": 0.000, "running": \[\]}$' err
+ok 'a line for each' [ "$(grep -o '^{"done": [0-9]*' err | sort -u | grep -vc ' 0$')" -eq 5 ]; ok 'and nothing else' [ "$(grep -vc '^{"done": ' err)" -eq 0 ]
+exits 1 test s --golden g --progress json --json -; err_has 'broken   in/wrong'; err_lacks 'monge accept'
+exits 1 test s --golden g --progress always -q; exits 0 accept --golden g
+exits 1 test s --golden g --changed --progress json; ok 'what is not rendered' grep -q '"rendered": 0, "unchanged": 4, "failed": 1, "part": 1.0000' err
+exits 1 test s --golden g; no_err
+for samples in 4 16 64 256 1024; do
+    printf 'rules: [{scenes: two, options: --frames all --samples %s}]\n' $samples >g/golden.yaml
+    exits 1 test s --golden g -j 1 --threads 1 --progress always; grep -q 'pictures  two' err && break
+done
+ok 'a bar, which is gone in the end' grep -qE $'^\r[1-4] of [45] pictures  two-000[12]  \\[.*\r +\r$' <(tr -d '\n' <err; echo)
+
 # ---- What is in tools/ci ----
 
 fresh 'root: ../s' 'kind: hash'

@@ -99,7 +99,7 @@ const struct option_row OPTION_TABLE[OPTIONS] = {
     [OPTION_LOG] = {"log", 0, VALUE_FILE, IN_RENDER, "FILE|-", 0, 0,
                     "add a line of JSON to the file for each picture"},
     [OPTION_PROGRESS] =
-        {"progress", 0, VALUE_CHOICE, IN_RENDER, "auto|always|never|json", 0, 0,
+        {"progress", 0, VALUE_CHOICE, IN_RENDER | IN_TEST, "auto|always|never|json", 0, 0,
          "show a progress bar; auto: where standard error is a terminal, not a dumb one; json: for programs"},
     [OPTION_FORMAT] = {"format", 0, VALUE_CHOICE, IN_RENDER | IN_CHECK, "text|json|sarif", 0, 0,
                        "how to report what is wrong: for people, or as one document for programs"},
@@ -351,7 +351,9 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                  "golden "
                  "whose scene is still there, below the root or else in a folder of the run, one above it, "
                  "or elsewhere below the current one, is none.",
-                 "A run that a signal ends writes what it has judged, for `monge accept` to take.",
+                 "A run that a signal ends writes what it has judged, for `monge accept` to take. --progress "
+                 "is "
+                 "that of render; in JSON, output is the golden.",
                  "Exit status 1 where anything is not the same. " IN_DOCUMENTS(
                      "testing.md") " has all of it.",
                  LIMITS_TEXT},
@@ -443,59 +445,77 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
             .operands = "A B",
             .doc = "tell whether two pictures, or two folders of them, are the same, and how they differ",
             .text =
-                {"Two pictures are the same when they have the same size, bits a channel, colour space and "
-                 "pixels. Text, compression, and whether there is a palette do not count; grey is equal red, "
-                 "green and blue, a picture without alpha is opaque, and one that names no colour space is "
-                 "sRGB. Any PNG will do. Prints a line about what differs; exit status 0 where they are the "
-                 "same, 1 where they are not, 2 where one cannot be read. Files with the same bytes are the "
-                 "same "
-                 "without being decoded: that the pixels of both are damaged is not told.",
-                 "Of two folders all PNG files below them are compared by their names, several at once; what "
-                 "is "
-                 "hidden and links to folders are passed by. Prints a line for each that differs, beyond the "
-                 "limits where "
-                 "some are given, or that one folder alone has, and one that counts; exit status 1 means "
-                 "that "
-                 "there are such. --out is then a folder, where each that is not the same gets its heat map "
-                 "under "
-                 "its name. A picture and a folder: the picture of that name in the folder.",
-                 "With --max-delta pixels differ where a channel does by more than that, on a scale from 0 "
-                 "to 1; "
-                 "with --max-pixels that many, or that part, may; with both, that many by more than that. "
-                 "Bits a "
-                 "channel may then differ.",
-                 "--metric measures: exact (the part of the pixels that differ), max (the largest difference "
-                 "of a "
-                 "channel), mae and rmse (the mean of the differences, the root of the mean of their "
-                 "squares), "
-                 "psnr (in decibels), ssim (structural similarity of luma, 1 for equal ones; Wang et al. "
-                 "2004) "
-                 "and flip (what is seen when they alternate, from 0 to 1; Andersson et al. 2020, --ppd "
-                 "pixels "
-                 "per degree; their order matters little). Where it names none of exact and max, "
-                 "--max-delta is a limit for what it names instead: mae, rmse, flip, 1 - ssim, the rmse of "
-                 "psnr.",
-                 "--ignore leaves out a rectangle, or what is neither black nor transparent in a PNG of the "
-                 "same "
-                 "size.",
-                 "--out writes a heat map: the first picture in dim grey, and what differs in colours from "
-                 "violet "
-                 "by orange to pale yellow, the root of the largest difference of a channel, or of FLIP's "
-                 "error with "
-                 "--metric flip.",
-                 "--json prints an object: same (as the exit status has it), why (size, color space, bits, "
-                 "pixels "
-                 "or null), a and b (file, width, height, bits, channels, colorSpace), pixels (compared), "
-                 "different, "
-                 "beyond (by more than --max-delta), bounds and largest (where; null where nothing differs), "
-                 "and each "
-                 "metric by its name. Without --metric these are exact and max. A metric is null where the "
-                 "pixels "
-                 "cannot be compared; psnr, which is then infinite, also where all are the same. Of folders "
-                 "it "
-                 "is a list of such objects, each with its name before; one that cannot be compared has "
-                 "name, "
-                 "same, why (missing or trouble), a and b (file; null where there is none) alone."},
+                {
+                    "Two pictures are the same when they have the same size, bits a channel, colour space "
+                    "and "
+                    "pixels. Text, compression, and whether there is a palette do not count; grey is equal "
+                    "red, "
+                    "green and blue, a picture without alpha is opaque, and one that names no colour space "
+                    "is "
+                    "sRGB. Any PNG will do. Prints a line about what differs; exit status 0 where they are "
+                    "the "
+                    "same, 1 where they are not, 2 where one cannot be read. Files with the same bytes are "
+                    "the "
+                    "same "
+                    "without being decoded: that the pixels of both are damaged is not told.",
+                    "Of two folders all PNG files below them are compared by their names, several at once; "
+                    "what "
+                    "is "
+                    "hidden and links to folders are passed by. Prints a line for each that differs, beyond "
+                    "the "
+                    "limits where "
+                    "some are given, or that one folder alone has, and one that counts; exit status 1 means "
+                    "that "
+                    "there are such. --out is then a folder, where each that is not the same gets its heat "
+                    "map "
+                    "under "
+                    "its name. A picture and a folder: the picture of that name in the folder.",
+                    "With --max-delta pixels differ where a channel does by more than that, on a scale from "
+                    "0 "
+                    "to 1; "
+                    "with --max-pixels that many, or that part, may; with both, that many by more than that. "
+                    "Bits a "
+                    "channel may then differ.",
+                    "--metric measures: exact (the part of the pixels that differ), max (the largest "
+                    "difference "
+                    "of a "
+                    "channel), mae and rmse (the mean of the differences, the root of the mean of their "
+                    "squares), "
+                    "psnr (in decibels), ssim (structural similarity of luma, 1 for equal ones; Wang et al. "
+                    "2004) "
+                    "and flip (what is seen when they alternate, from 0 to 1; Andersson et al. 2020, --ppd "
+                    "pixels "
+                    "per degree; their order matters little). Where it names none of exact and max, "
+                    "--max-delta is a limit for what it names instead: mae, rmse, flip, 1 - ssim, the rmse "
+                    "of "
+                    "psnr.",
+                    "--ignore leaves out a rectangle, or what is neither black nor transparent in a PNG of "
+                    "the "
+                    "same "
+                    "size.",
+                    "--out writes a heat map: the first picture in dim grey, and what differs in colours "
+                    "from "
+                    "violet "
+                    "by orange to pale yellow, the root of the largest difference of a channel, or of FLIP's "
+                    "error with "
+                    "--metric flip.",
+                    "--json prints an object: same (as the exit status has it), why (size, color space, "
+                    "bits, "
+                    "pixels "
+                    "or null), a and b (file, width, height, bits, channels, colorSpace), pixels (compared), "
+                    "different, "
+                    "beyond (by more than --max-delta), bounds and largest (where; null where nothing "
+                    "differs), "
+                    "and each "
+                    "metric by its name. Without --metric these are exact and max. A metric is null where "
+                    "the "
+                    "pixels "
+                    "cannot be compared; psnr, which is then infinite, also where all are the same. Of "
+                    "folders "
+                    "it "
+                    "is a list of such objects, each with its name before; one that cannot be compared has "
+                    "name, "
+                    "same, why (missing or trouble), a and b (file; null where there is none) alone."},
             .examples = {{"monge diff golden.png new.png", "exit status 0 where they are the same"},
                          {"monge diff before/ after/ --out heat/", "all of two folders, with heat maps"},
                          {"monge diff a.png b.png --max-delta 0.01 --max-pixels 0.1%",

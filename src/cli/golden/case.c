@@ -150,9 +150,16 @@ static bool set_inputs(const struct subject *s, struct golden_case *c, struct mo
 
 static struct monge_film *render(const struct subject *s, struct golden_case *c,
                                  const struct monge_settings *settings, const struct monge_region *region) {
-    const struct monge_job job = {
-        .threads = s->run->threads, .cancel = interrupt_flag(), .options = c->now.options};
+    const struct picture shown = {
+        .scene = c->scene, .output = c->name, .frame = s->frame, .settings = *settings, .region = *region};
+    const struct monge_job job = {.threads = s->run->threads,
+                                  .progress = progress_update,
+                                  .context = &s->scene->progress,
+                                  .cancel = interrupt_flag(),
+                                  .options = c->now.options};
+    progress_picture(&s->scene->progress, c->name, &shown, 0);
     struct monge_film *film = monge_render(s->load->scene, settings, region, &job, NULL);
+    progress_rendered(&s->scene->progress);
     const bool good = film && monge_film_hash(film, c->now.pixels);
     if (!good && !interrupt_pending()) {
         say_error("%s: no memory for a picture of %ux%u", c->scene, region->width, region->height);
@@ -164,21 +171,22 @@ static struct monge_film *render(const struct subject *s, struct golden_case *c,
 }
 
 /* Everything after loading. */
-static void run_case(const struct subject *s, struct golden_case *c) {
+static enum outcome run_case(const struct subject *s, struct golden_case *c) {
     struct monge_settings settings;
     struct monge_region region;
-    if (!set_inputs(s, c, &settings, &region)) return;
+    if (!set_inputs(s, c, &settings, &region)) return PICTURE_FAILED;
     const bool has_golden = golden_find(s->run, c);
     if (has_golden && s->run->changed_only && golden_is_unchanged(s->run, c)) {
         c->status = GOLDEN_SAME;
         c->unchanged = true;
-        return;
+        return PICTURE_UNCHANGED;
     }
     struct monge_film *film = render(s, c, &settings, &region);
     if (film) golden_judge(s->run, c, film, has_golden);
     if (film && c->new_path && s->scene->rule->rule->aov)
         golden_judge_layers(s->run, s->load->scene, &settings, &region, c);
     monge_film_free(film);
+    return film ? PICTURE_RENDERED : PICTURE_FAILED;
 }
 
 /* ---- Frames, combinations ---- */
@@ -193,12 +201,14 @@ static void run_frames(struct subject *s) {
     if (!frames) {
         struct golden_case *c = add_case(s);
         listen_end(&listener, c);
+        progress_done(&s->scene->progress, PICTURE_FAILED);
         return;
     }
     say_divert(listener.before);
     if (listener.stream) fclose(listener.stream);
     free(listener.text);
     s->digits = pattern_digits(total);
+    progress_pictures(&s->scene->progress, s->scene->progress.pictures + count - 1);
     for (size_t i = 0; i < count && !interrupt_pending(); i++) {
         const double begun = clock_seconds();
         s->frame = option->given && total > 0 ? frames[i] : 0;
@@ -207,10 +217,13 @@ static void run_frames(struct subject *s) {
         const enum status status =
             i == 0 ? STATUS_YES : load_frame(&s->scene->rule->loader, s->load, frames[i]);
         c->trouble = status == STATUS_TROUBLE;
-        if (status == STATUS_YES) run_case(s, c);
+        const enum outcome outcome = status == STATUS_YES ? run_case(s, c) : PICTURE_FAILED;
         listen_end(&listener, c);
         c->seconds = clock_seconds() - begun;
-        if (interrupt_pending()) drop_case(s);
+        if (interrupt_pending())
+            drop_case(s);
+        else
+            progress_done(&s->scene->progress, outcome);
     }
     free(frames);
 }
@@ -231,23 +244,29 @@ static void run_combination(struct subject *s) {
     c->seconds = clock_seconds() - begun;
     if (!load.scene && interrupt_pending()) drop_case(s);
     const size_t first = s->scene->count;
-    if (load.scene) run_frames(s);
+    if (load.scene)
+        run_frames(s);
+    else
+        progress_done(&s->scene->progress, PICTURE_FAILED);
     if (first < s->scene->count) s->scene->cases[first].seconds += c->seconds;
     load_close(&rule->loader, &load);
 }
 
-void golden_scene_run(const struct golden_run *run, struct golden_scene *scene) {
+void golden_scene_run(struct golden_run *run, struct golden_scene *scene) {
     const struct sweep *sweep = &scene->rule->loader.sweep;
     struct monge_define *defines = calloc(sweep->count + 1, sizeof *defines);
     if (!defines) {
         say_error("out of memory");
         exit(STATUS_TROUBLE);
     }
+    progress_unit_begin(&scene->progress, &run->progress);
+    progress_pictures(&scene->progress, sweep->total);
     for (size_t i = 0; i < sweep->total && !interrupt_pending(); i++) {
         struct subject s = {.run = run, .scene = scene, .defines = defines};
         sweep_combination(sweep, i, defines);
         run_combination(&s);
     }
+    progress_unit_end(&scene->progress);
     free(defines);
     scene->done = !interrupt_pending();
 }

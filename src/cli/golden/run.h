@@ -5,6 +5,7 @@
 #include "cli/golden/lock.h"
 #include "cli/golden/results.h"
 #include "cli/golden/settings.h"
+#include "cli/progress.h"
 
 /* A scene, on one thread at a time. */
 struct golden_scene {
@@ -14,6 +15,7 @@ struct golden_scene {
     struct golden_case *cases; /* owned */
     size_t count;
     bool done; /* no signal has come before its last case was judged */
+    struct progress_unit progress;
 };
 
 struct golden_run {
@@ -27,11 +29,12 @@ struct golden_run {
     struct golden_results last; /* the run before; empty where there was none */
     struct golden_scene *scenes;
     size_t count;
+    struct progress progress;
 };
 
 /* Renders the pictures of a scene, and judges them: its cases. One that a signal has cut short is none, and leaves nothing
  * behind. */
-void golden_scene_run(const struct golden_run *run, struct golden_scene *scene);
+void golden_scene_run(struct golden_run *run, struct golden_scene *scene);
 
 /* Whether goldens of this kind have pixels, so that a difference can be within a tolerance: hashes have with --old alone. */
 bool golden_knows_tolerance(const struct golden_run *run, enum monge_golden_kind kind);

@@ -218,6 +218,7 @@ static bool run_scene(void *context, size_t index) {
 static void end_scene(void *context, size_t index, const char *said) {
     struct test *test = context;
     const struct golden_scene *scene = &test->run.scenes[index];
+    progress_hide(&test->run.progress);
     fputs(said, stderr);
     for (size_t i = 0; i < scene->count; i++) golden_tell(&test->teller, &scene->cases[i]);
 }
@@ -357,7 +358,10 @@ static enum status run_test(struct test *test) {
     struct golden_run *run = &test->run;
     const struct batch batch = {run->count, run->jobs, run->jobs > 1, test, run_scene, end_scene};
     golden_tell_begin(&test->teller);
+    progress_begin(&run->progress, (enum progress_wish)test->args.option[OPTION_PROGRESS].choice,
+                   test->teller.quiet, run->count, run->loader.scenes.missing);
     if (run->count > 0) batch_run(&batch);
+    progress_end(&run->progress);
     if (!gather(test)) return STATUS_TROUBLE;
     test->results.interrupted = count_undone(run);
     const bool all = test->results.interrupted == 0;
@@ -404,10 +408,12 @@ static bool begin(struct test *test, const struct arguments *args) {
     /* a document must be alone on standard output */
     FILE *out =
         is_standard(&option[OPTION_TEST_JSON]) || is_standard(&option[OPTION_JUNIT]) ? stderr : stdout;
-    test->teller = (struct golden_teller){.out = out,
-                                          .tap = option[OPTION_TAP].given,
-                                          .quiet = option[OPTION_QUIET].given,
-                                          .colors = isatty(fileno(out)) && !getenv("NO_COLOR")};
+    const bool for_programs = option[OPTION_PROGRESS].choice == PROGRESS_JSON; /* alone on stderr */
+    test->teller =
+        (struct golden_teller){.out = out,
+                               .tap = option[OPTION_TAP].given,
+                               .quiet = option[OPTION_QUIET].given || (out == stderr && for_programs),
+                               .colors = isatty(fileno(out)) && !getenv("NO_COLOR")};
     test->results.folder = say_text("%s", run->folder);
     const enum monge_golden_kind kind = (enum monge_golden_kind)option[OPTION_GOLDEN_KIND].choice;
     if (!loader_begin(&run->loader, args) ||
