@@ -14,8 +14,8 @@
 static bool write_text(const char *text, size_t size, const char *path, struct diagnostics *diag) {
     struct replacement file;
     if (replace_begin(&file, path)) {
-        fwrite(text, 1, size, file.stream);
-        if (replace_commit(&file)) return true;
+        const bool good = fwrite(text, 1, size, file.stream) == size;
+        if (replace_end(&file, good)) return true;
     }
     diag_failure(diag, "cannot-write", "cannot write %s: %s",
                  strcmp(path, "-") == 0 ? "standard output" : path, strerror(errno));

@@ -2,13 +2,13 @@
 
 #include <errno.h>
 #include <math.h>
-#include <png.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <zlib.h>
 
 #include "image/flip.h"
-#include "image/replace.h"
+#include "image/png_file.h"
 
 /* ---- Colours ---- */
 
@@ -42,92 +42,54 @@ static void color_row(const struct monge_picture *a, uint32_t y, const float *er
 
 /* ---- The file ---- */
 
-/* Everything that libpng's longjmp must not lose lives here. */
-struct writer {
+struct heat {
     const struct comparison *comparison;
-    const float *map; /* FLIP's; NULL: the largest differences of channels */
-    png_structp png;
-    png_infop info;
-    float *errors; /* of a row */
-    uint8_t *row;
-    char *reason;
+    bool all; /* FLIP's errors, of all pixels at once; else the largest differences of channels, of a row */
+    float *errors; /* owned */
 };
 
-static void on_error(png_structp png, png_const_charp text) {
-    struct writer *w = png_get_error_ptr(png);
-    snprintf(w->reason, PICTURE_REASON_SIZE, "%s", text);
-    png_longjmp(png, 1);
-}
-
-static void on_warning(png_structp png, png_const_charp text) { (void)png, (void)text; }
-
-static void on_write(png_structp png, png_bytep bytes, size_t size) {
-    if (fwrite(bytes, 1, size, png_get_io_ptr(png)) != size) png_error(png, strerror(errno));
-}
-
-static void on_flush(png_structp png) { (void)png; }
-
-static bool write_rows(struct writer *w) {
-    if (setjmp(png_jmpbuf(w->png))) return false;
-    const struct monge_picture *a = w->comparison->a;
-    png_set_IHDR(w->png, w->info, a->width, a->height, 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
+static void put_heat(struct png_file *file, const void *context) {
+    const struct heat *heat = context;
+    const struct monge_picture *a = heat->comparison->a;
+    png_set_IHDR(file->png, file->info, a->width, a->height, 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
                  PNG_COMPRESSION_TYPE_BASE, PNG_FILTER_TYPE_BASE);
-    png_set_filter(w->png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
-    png_set_compression_strategy(w->png, Z_RLE);
-    png_set_sRGB(w->png, w->info, PNG_sRGB_INTENT_PERCEPTUAL);
-    png_write_info(w->png, w->info);
+    png_set_filter(file->png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
+    png_set_compression_strategy(file->png, Z_RLE);
+    png_set_sRGB(file->png, file->info, PNG_sRGB_INTENT_PERCEPTUAL);
+    png_write_info(file->png, file->info);
     for (uint32_t y = 0; y < a->height; y++) {
-        if (!w->map) compare_row(w->comparison, y, w->errors);
-        color_row(a, y, w->map ? w->map + (size_t)y * a->width : w->errors, w->row);
-        png_write_row(w->png, w->row);
+        float *errors = heat->errors + (heat->all ? (size_t)y * a->width : 0);
+        if (!heat->all) compare_row(heat->comparison, y, errors);
+        color_row(a, y, errors, file->row);
+        png_write_row(file->png, file->row);
     }
-    png_write_end(w->png, NULL);
-    return true;
+    png_write_end(file->png, NULL);
 }
 
-static bool write_picture(struct writer *w, FILE *stream) {
-    bool written = false;
-    w->errors = malloc(w->comparison->a->width * sizeof *w->errors);
-    w->row = malloc((size_t)w->comparison->a->width * 3);
-    w->png = png_create_write_struct(PNG_LIBPNG_VER_STRING, w, on_error, on_warning);
-    if (w->png) w->info = png_create_info_struct(w->png);
-    snprintf(w->reason, PICTURE_REASON_SIZE, "%s", strerror(ENOMEM));
-    if (w->errors && w->row && w->info) {
-        png_set_write_fn(w->png, stream, on_write, on_flush);
-        written = write_rows(w);
-    }
-    png_destroy_write_struct(&w->png, &w->info);
-    free(w->errors);
-    free(w->row);
-    return written;
-}
-
-static bool write_file(struct writer *w, const char *path) {
-    struct replacement file;
-    if (replace_begin(&file, path)) {
-        if (!write_picture(w, file.stream)) {
-            replace_abandon(&file);
-            return false;
-        }
-        if (replace_commit(&file)) return true;
-    }
-    snprintf(w->reason, PICTURE_REASON_SIZE, "%s", strerror(errno));
-    return false;
-}
-
-/* FLIP's error of each pixel, in *map where it is asked for. */
-static bool make_map(const struct comparison *c, const struct monge_compare *how, float **map) {
+/* False: no memory. */
+static bool make_errors(struct heat *heat, const struct monge_compare *how) {
+    const struct comparison *c = heat->comparison;
     double mean;
-    if (!(how->metrics >> MONGE_METRIC_FLIP & 1)) return true;
-    *map = calloc((size_t)c->a->width * c->a->height, sizeof **map);
-    return *map &&
-           (c->pixels == 0 || flip_mean(c, how->ppd > 0.0 ? how->ppd : MONGE_DEFAULT_PPD, *map, &mean));
+    heat->all = how->metrics >> MONGE_METRIC_FLIP & 1;
+    heat->errors = calloc((size_t)c->a->width * (heat->all ? c->a->height : 1), sizeof *heat->errors);
+    if (!heat->errors || !heat->all || c->pixels == 0) return heat->errors != NULL;
+    return flip_mean(c, how->ppd > 0.0 ? how->ppd : MONGE_DEFAULT_PPD, heat->errors, &mean);
+}
+
+static bool write_file(struct heat *heat, const struct monge_compare *how, const char *path,
+                       char reason[PICTURE_REASON_SIZE]) {
+    struct png_file file = {.reason = ""};
+    const size_t row_size = (size_t)heat->comparison->a->width * 3;
+    const bool made = make_errors(heat, how);
+    const bool written = made && png_file_write(&file, path, row_size, put_heat, heat);
+    if (!written) snprintf(reason, PICTURE_REASON_SIZE, "%s", made ? file.reason : strerror(ENOMEM));
+    free(heat->errors);
+    return written;
 }
 
 bool heat_map_write(struct monge_picture *a, struct monge_picture *b, const struct monge_compare *how,
                     const char *path, char reason[PICTURE_REASON_SIZE], const struct monge_picture **about) {
     struct comparison c;
-    float *map = NULL;
     bool good = false;
     if (a->width != b->width || a->height != b->height) {
         *about = b;
@@ -136,15 +98,9 @@ bool heat_map_write(struct monge_picture *a, struct monge_picture *b, const stru
     }
     if (comparison_begin(&c, a, b, how, reason, about)) {
         *about = NULL;
-        struct writer w = {.comparison = &c, .reason = reason};
-        if (make_map(&c, how, &map)) {
-            w.map = map;
-            good = write_file(&w, path);
-        } else {
-            snprintf(reason, PICTURE_REASON_SIZE, "%s", strerror(ENOMEM));
-        }
+        struct heat heat = {.comparison = &c};
+        good = write_file(&heat, how, path, reason);
     }
     comparison_end(&c);
-    free(map);
     return good;
 }

@@ -36,13 +36,8 @@ static bool write_rows(FILE *stream, uint32_t width, uint32_t height, const floa
 bool pfm_write(const char *path, uint32_t width, uint32_t height, const float *values, char *message,
                size_t size) {
     struct replacement file;
-    bool good = replace_begin(&file, path);
-    if (good && !write_rows(file.stream, width, height, values)) {
-        replace_abandon(&file);
-        good = false;
-    } else if (good) {
-        good = replace_commit(&file);
-    }
+    const bool good =
+        replace_begin(&file, path) && replace_end(&file, write_rows(file.stream, width, height, values));
     if (!good) snprintf(message, size, "cannot write %s: %s", path, strerror(errno));
     return good;
 }

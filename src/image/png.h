@@ -1,4 +1,4 @@
-/* PNG files, by libpng: the only place that includes png.h. */
+/* Films as PNG files. */
 #ifndef MONGE_IMAGE_PNG_H
 #define MONGE_IMAGE_PNG_H
 

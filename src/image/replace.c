@@ -97,13 +97,23 @@ static FILE *stream_from(int fd) {
     return stream;
 }
 
+/* Keeps errno. */
+static void abandon(struct replacement *file) {
+    const int reason = errno;
+    if (file->stream && file->stream != stdout) fclose(file->stream);
+    if (file->temporary) unlink(file->temporary);
+    free(file->temporary);
+    free(file->target);
+    errno = reason;
+}
+
 /* `old` is what is there now, NULL if nothing is. */
 static bool open_beside(struct replacement *file, const char *path, const struct stat *old) {
     if (old && access(path, W_OK) != 0) return false; /* its owner does not want it changed */
     file->target = follow_links(path);
     if (file->target) file->stream = stream_from(open_new(file));
     if (file->stream && (!old || fchmod(fileno(file->stream), old->st_mode & 0777) == 0)) return true;
-    replace_abandon(file);
+    abandon(file);
     return false;
 }
 
@@ -138,20 +148,16 @@ static bool put_in_place(struct replacement *file) {
     return true;
 }
 
-bool replace_commit(struct replacement *file) {
+/* All that is left after is to forget it. */
+static bool commit(struct replacement *file) {
     bool good = flush_stream(file->stream, file->target != NULL) && (!file->target || name_file(file));
     if (file->stream != stdout) good = fclose(file->stream) == 0 && good;
     file->stream = NULL;
-    good = good && put_in_place(file);
-    replace_abandon(file);
-    return good;
+    return good && put_in_place(file);
 }
 
-void replace_abandon(struct replacement *file) {
-    const int reason = errno;
-    if (file->stream && file->stream != stdout) fclose(file->stream);
-    if (file->temporary) unlink(file->temporary);
-    free(file->temporary);
-    free(file->target);
-    errno = reason;
+bool replace_end(struct replacement *file, bool good) {
+    good = good && commit(file);
+    abandon(file);
+    return good;
 }

@@ -2,8 +2,8 @@
  *
  *     struct replacement file;
  *     if (!replace_begin(&file, "king.png")) return false;      a file without a name
- *     fputs("...", file.stream);
- *     return replace_commit(&file);                             synced, and king.png
+ *     const bool good = fputs("...", file.stream) >= 0;
+ *     return replace_end(&file, good);                          synced, and king.png
  *
  * A process that is killed in between leaves nothing. Only where the system has no files without names, and for the
  * moment in which an older file is replaced, is there one called .king.png.h3k9zq.tmp. */
@@ -24,10 +24,8 @@ struct replacement {
  * "-" is stdout. False: errno says why, nothing is left behind. */
 bool replace_begin(struct replacement *file, const char *path);
 
-/* Ends the writing: puts the file in its place. False, with errno, when anything since
- * replace_begin has failed: nothing is left behind. Either way *file is done with. */
-bool replace_commit(struct replacement *file);
-
-void replace_abandon(struct replacement *file); /* keeps errno */
+/* Ends the writing: puts the file in its place. False, with errno, when it is not `good`, which leaves errno as it is,
+ * or anything since replace_begin has failed: nothing is left behind. Either way *file is done with. */
+bool replace_end(struct replacement *file, bool good);
 
 #endif
