@@ -1,27 +1,12 @@
 #include <string.h>
 
 #include "base/diag_write.h"
-
-enum { LINE_WIDTH = 80 };
+#include "base/wrap.h"
 
 const struct diag_story *diag_find_story(struct diag_stories stories, const char *code) {
     for (size_t i = 0; i < stories.count; i++)
         if (strcmp(stories.first[i].code, code) == 0) return &stories.first[i];
     return NULL;
-}
-
-static void print_wrapped(const char *text, FILE *out) {
-    for (size_t column = 0; *text;) {
-        const size_t length = strcspn(text, " ");
-        if (column > 0 && column + 1 + length > LINE_WIDTH) {
-            fputc('\n', out);
-            column = 0;
-        }
-        column += (size_t)fprintf(out, "%s%.*s", column > 0 ? " " : "", (int)length, text);
-        text += length;
-        text += strspn(text, " ");
-    }
-    fputc('\n', out);
 }
 
 static void print_example(const char *title, const char *text, FILE *out) {
@@ -35,9 +20,9 @@ static void print_example(const char *title, const char *text, FILE *out) {
 
 void diag_explain(const struct diag_story *story, FILE *out) {
     fprintf(out, "%s (%s)\n\n", story->code, story->severity);
-    print_wrapped(story->summary, out);
+    wrap_print(out, story->summary, 0, 0);
     fputc('\n', out);
-    print_wrapped(story->text, out);
+    wrap_print(out, story->text, 0, 0);
     print_example("wrong", story->wrong, out);
     print_example("right", story->right, out);
 }

@@ -2,36 +2,18 @@
 
 #include <string.h>
 
+#include "base/wrap.h"
 #include "grammar_tables.h"
 #include "lang/file.h"
 #include "lang/grammar.h"
 #include "lang/node.h"
 #include "lang/spelling.h"
 
-enum { LINE_WIDTH = 80, KEY_COLUMN = 4, DOC_COLUMN = 8, NAME_COLUMN = 16, FUNCTION_COLUMN = 28 };
-
-/* Words from `column` on, where the cursor is, with new lines that begin at `indent`. */
-static void print_wrapped(FILE *out, const char *text, int column, int indent) {
-    for (bool first = true; *text; first = false) {
-        const int length = (int)strcspn(text, " \n");
-        if (!first && column + 1 + length > LINE_WIDTH) {
-            fprintf(out, "\n%*s", indent, "");
-            column = indent;
-        } else if (!first) {
-            fputc(' ', out);
-            column++;
-        }
-        fprintf(out, "%.*s", length, text);
-        column += length;
-        text += length;
-        text += strspn(text, " \n");
-    }
-    fputc('\n', out);
-}
+enum { KEY_COLUMN = 4, DOC_COLUMN = 8, NAME_COLUMN = 16, FUNCTION_COLUMN = 28 };
 
 static void print_paragraph(FILE *out, const char *text, int indent) {
     fprintf(out, "%*s", indent, "");
-    print_wrapped(out, text, indent, indent);
+    wrap_print(out, text, indent, indent);
 }
 
 /* ---- Keys ---- */
@@ -150,7 +132,7 @@ static void print_row(FILE *out, const char *name, const char *doc) {
         fprintf(out, "\n%*s", column, "");
     else
         fprintf(out, "%*s", column - 2 - length, "");
-    print_wrapped(out, doc, column, column);
+    wrap_print(out, doc, column, column);
 }
 
 static bool print_functions(FILE *out) {
@@ -182,7 +164,7 @@ static void print_preset(FILE *out, struct arena *arena, const struct node *name
         const char *text = arena_format(arena, "%s: %s%s", key->text, value_text(arena, key->next),
                                         key->next->next ? "," : "");
         const int length = (int)strlen(text), space = key == first ? 0 : 1;
-        const bool fits = column + space + length <= LINE_WIDTH;
+        const bool fits = column + space + length <= WRAP_WIDTH;
         fprintf(out, "%s%*s%s", fits ? "" : "\n", fits ? space : NAME_COLUMN, "", text);
         column = (fits ? column + space : NAME_COLUMN) + length;
     }
@@ -223,7 +205,7 @@ static void print_summary(FILE *out, const struct grammar_kind *kind) {
     const char *end = strstr(kind->doc, ". ");
     snprintf(text, sizeof text, "%.*s", end ? (int)(end + 1 - kind->doc) : (int)sizeof text, kind->doc);
     fprintf(out, "  %-*s", NAME_COLUMN - 2, kind->name);
-    print_wrapped(out, text, NAME_COLUMN, NAME_COLUMN);
+    wrap_print(out, text, NAME_COLUMN, NAME_COLUMN);
 }
 
 static bool print_language(FILE *out) {
