@@ -9,10 +9,7 @@
 char *aov_path(enum monge_layer layer, const char *picture) {
     const size_t size = monge_layer_path(layer, picture, NULL, 0) + 1;
     char *path = malloc(size);
-    if (!path) {
-        say_error("out of memory");
-        exit(STATUS_TROUBLE);
-    }
+    if (!path) say_no_memory();
     monge_layer_path(layer, picture, path, size);
     return path;
 }

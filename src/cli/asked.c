@@ -80,11 +80,7 @@ char *asked_text(const struct option_value *option, const struct monge_define *d
                  unsigned frame) {
     char *text = NULL;
     size_t size = 0;
-    FILE *out = open_memstream(&text, &size);
-    if (!out) {
-        say_error("out of memory");
-        exit(STATUS_TROUBLE);
-    }
+    FILE *out = say_text_begin(&text, &size);
     for (size_t i = 0; i < CHANGE_PIXELS; i++) {
         const struct option_value *o = &option[change_pixels[i]];
         if (!o->given) continue;
@@ -94,7 +90,7 @@ char *asked_text(const struct option_value *option, const struct monge_define *d
     }
     print_defines(out, defines, define_count);
     if (frame > 1) fprintf(out, " --frames %u", frame);
-    fclose(out);
+    say_text_end(out);
     char *asked = say_text("%s", *text ? text + 1 : "");
     free(text);
     return asked;

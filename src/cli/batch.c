@@ -97,10 +97,7 @@ size_t batch_run(const struct batch *batch) {
                         .ended = PTHREAD_COND_INITIALIZER};
     pthread_t *threads = calloc(batch->jobs, sizeof *threads);
     unsigned started = 0;
-    if (!pool.units || !threads) {
-        say_error("out of memory");
-        exit(STATUS_TROUBLE);
-    }
+    if (!pool.units || !threads) say_no_memory();
     while (started + 1 < batch->jobs && pthread_create(&threads[started], NULL, run_units, &pool) == 0)
         started++;
     run_units(&pool);

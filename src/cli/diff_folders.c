@@ -48,16 +48,11 @@ bool diff_is_folder(const char *path) {
 
 char *diff_path(const char *folder, const char *name) { return path_below(folder, name, ""); }
 
-static void *no_memory(void) {
-    say_error("out of memory");
-    exit(STATUS_TROUBLE);
-}
-
 /* ---- What is there ---- */
 
 static void add_name(struct names *names, const char *name) {
     names->all = realloc(names->all, (names->count + 1) * sizeof *names->all);
-    if (!names->all) no_memory();
+    if (!names->all) say_no_memory();
     names->all[names->count++] = say_text("%s", name);
 }
 
@@ -104,7 +99,7 @@ static int compare_names(const void *a, const void *b) {
 static void merge(struct folders *folders) {
     const struct names *a = &folders->names[SIDE_A], *b = &folders->names[SIDE_B];
     folders->entries = calloc(a->count + b->count + 1, sizeof *folders->entries);
-    if (!folders->entries) no_memory();
+    if (!folders->entries) say_no_memory();
     for (size_t i = 0, k = 0; i < a->count || k < b->count;) {
         const int order = i == a->count ? 1 : k == b->count ? -1 : strcmp(a->all[i], b->all[k]);
         struct entry *entry = &folders->entries[folders->count++];
@@ -186,7 +181,7 @@ static void compare(const struct folders *folders, struct entry *entry, FILE *ou
     struct monge_diagnostics *diag = monge_diagnostics_new();
     char *a = diff_path(folders->folder[SIDE_A], entry->name),
          *b = diff_path(folders->folder[SIDE_B], entry->name);
-    if (!diag) no_memory();
+    if (!diag) say_no_memory();
     diff.how.threads = folders->threads;
     const bool compared = diff_pair_compare(&pair, &diff, a, b, diag);
     entry->outcome = compared ? pair.verdict : TROUBLE;
@@ -204,14 +199,13 @@ static void compare(const struct folders *folders, struct entry *entry, FILE *ou
 static bool run_entry(void *context, size_t index) {
     const struct folders *folders = context;
     struct entry *entry = &folders->entries[index];
-    FILE *out = open_memstream(&entry->told, &entry->size);
-    if (!out) no_memory();
+    FILE *out = say_text_begin(&entry->told, &entry->size);
     entry->outcome = entry->in[SIDE_A] ? ONLY_IN_A : ONLY_IN_B;
     if (entry->in[SIDE_A] && entry->in[SIDE_B])
         compare(folders, entry, out);
     else
         tell_none(folders, entry, out);
-    if (fclose(out) != 0) no_memory();
+    say_text_end(out);
     return true;
 }
 

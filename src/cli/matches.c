@@ -20,10 +20,7 @@ static int compare_texts(const void *a, const void *b) {
 /* `all` with one more. */
 static char **with_text(char **all, size_t count, const char *text) {
     all = realloc(all, (count + 2) * sizeof *all);
-    if (!all) {
-        say_error("out of memory");
-        exit(STATUS_TROUBLE);
-    }
+    if (!all) say_no_memory();
     all[count] = say_text("%s", text);
     all[count + 1] = NULL;
     return all;

@@ -19,10 +19,7 @@
 
 static struct picture *add_picture(struct unit *unit, const char *path, unsigned frame) {
     struct picture *pictures = realloc(unit->pictures, (unit->count + 1) * sizeof *pictures);
-    if (!pictures) {
-        say_error("out of memory");
-        exit(STATUS_TROUBLE);
-    }
+    if (!pictures) say_no_memory();
     unit->pictures = pictures;
     pictures[unit->count] = (struct picture){.scene = unit->output->scene,
                                              .output = path ? say_text("%s", path) : NULL,

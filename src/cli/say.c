@@ -14,11 +14,15 @@ static _Thread_local FILE *diverted;
 FILE *say_stream(void) { return diverted ? diverted : stderr; }
 void say_divert(FILE *stream) { diverted = stream; }
 
-char *say_text_list(const char *format, va_list args) {
-    char *text = NULL;
-    if (vasprintf(&text, format, args) >= 0) return text;
+void say_no_memory(void) {
     fputs("monge: out of memory\n", stderr);
     exit(STATUS_TROUBLE);
+}
+
+char *say_text_list(const char *format, va_list args) {
+    char *text = NULL;
+    if (vasprintf(&text, format, args) < 0) say_no_memory();
+    return text;
 }
 
 static void print_line(FILE *out, const char *prefix, const char *format, va_list args) {
@@ -67,6 +71,17 @@ char *say_text(const char *format, ...) {
     char *text = say_text_list(format, args);
     va_end(args);
     return text;
+}
+
+FILE *say_text_begin(char **text, size_t *size) {
+    FILE *out = open_memstream(text, size);
+    if (!out) say_no_memory();
+    return out;
+}
+
+void say_text_end(FILE *out) {
+    const bool good = !ferror(out);
+    if (fclose(out) != 0 || !good) say_no_memory();
 }
 
 /* open takes the lowest number that is free, the missing stream's; the wrong mode makes each use of it fail. A file that

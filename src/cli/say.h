@@ -28,6 +28,13 @@ char *say_text(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
 char *say_text_list(const char *format, va_list args);
 
+/* A stream that makes a text, as open_memstream, and its end; either ends the program where there is no memory. */
+FILE *say_text_begin(char **text, size_t *size);
+void say_text_end(FILE *out);
+
+/* Says so, on stderr itself, and ends the program. */
+_Noreturn void say_no_memory(void);
+
 /* Before all else: a stream that was closed must not become a file that is opened later. */
 void streams_open(void);
 

@@ -42,18 +42,13 @@ static void report_trouble(struct search *search, const char *path, const char *
     fail_operand(search);
 }
 
-static void *no_memory(void) {
-    say_error("out of memory");
-    exit(STATUS_TROUBLE);
-}
-
 /* ---- Scenes ---- */
 
 /* The name is the path from `name` on, without its extension. */
 static void add_scene(struct search *search, const char *path, const char *name) {
     struct scenes *scenes = search->scenes;
     scenes->all = realloc(scenes->all, (scenes->count + 1) * sizeof *scenes->all);
-    if (!scenes->all) no_memory();
+    if (!scenes->all) say_no_memory();
     scenes->all[scenes->count++] = (struct scene_file){say_text("%s", path), scene_name(name)};
 }
 
@@ -155,7 +150,7 @@ struct list {
 static struct list list_begin(const struct monge_text *text) {
     static const char mark[] = "\xEF\xBB\xBF"; /* of UTF-8, by some editors */
     struct list list = {.copy = malloc(text->size + 1)};
-    if (!list.copy) no_memory();
+    if (!list.copy) say_no_memory();
     memcpy(list.copy, text->bytes, text->size + 1);
     list.separator = memchr(list.copy, '\0', text->size) ? '\0' : '\n';
     list.at = list.copy + (list.separator && strncmp(list.copy, mark, 3) == 0 ? 3 : 0);
@@ -359,7 +354,7 @@ static bool is_same(const struct scene_file *a, const struct scene_file *b) {
 /* A file that is named twice counts once, if it would have the same name. */
 static void drop_repeated(struct scenes *scenes) {
     struct scene_file **sorted = calloc(scenes->count + 1, sizeof *sorted);
-    if (!sorted) no_memory();
+    if (!sorted) say_no_memory();
     for (size_t i = 0; i < scenes->count; i++) sorted[i] = &scenes->all[i];
     if (scenes->count > 1) qsort(sorted, scenes->count, sizeof *sorted, compare_places);
     for (size_t i = 1, first = 0; i < scenes->count; i++)

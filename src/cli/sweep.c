@@ -11,9 +11,8 @@ enum { MAX_COMBINATIONS = 1000000 };
 
 static void *grow(void *array, size_t count, size_t size) {
     void *larger = realloc(array, count * size);
-    if (larger) return larger;
-    say_error("out of memory");
-    exit(STATUS_TROUBLE);
+    if (!larger) say_no_memory();
+    return larger;
 }
 
 static void add_value(struct axis *axis, char *value) {

@@ -146,10 +146,7 @@ struct names {
 
 static void add_name(struct names *names, const char *name) {
     names->all = realloc(names->all, (names->count + 2) * sizeof *names->all);
-    if (!names->all) {
-        say_error("out of memory");
-        exit(STATUS_TROUBLE);
-    }
+    if (!names->all) say_no_memory();
     names->all[names->count++] = say_text("%s", name);
     names->all[names->count] = NULL;
 }

@@ -58,15 +58,11 @@ static char *message_of(const struct golden_case *c) {
 
 static void put_failure(FILE *out, const struct golden_case *c) {
     const char *element = c->status == GOLDEN_BROKEN ? "error" : "failure";
-    char *message = message_of(c), *lines = NULL;
-    size_t size = 0;
-    FILE *memory = open_memstream(&lines, &size);
-    if (memory) golden_print_details(memory, c, "");
-    if (memory) fclose(memory);
+    char *message = message_of(c), *lines = golden_details(c);
     fprintf(out, "      <%s type=\"%s\"", element, GOLDEN_STATUS[c->status]);
     put_attribute(out, "message", *message ? message : GOLDEN_STATUS[c->status]);
     fputs(">", out);
-    put_text(out, lines ? lines : "");
+    put_text(out, lines);
     fprintf(out, "</%s>\n", element);
     free(lines);
     free(message);
@@ -100,11 +96,7 @@ char *golden_junit_text(const struct golden_results *results) {
     char *interruption = golden_interruption(results);
     const size_t broken = golden_count(results, GOLDEN_BROKEN), more = interruption ? 1 : 0;
     const size_t failures = results->count - golden_count(results, GOLDEN_SAME) - broken;
-    FILE *out = open_memstream(&text, &size);
-    if (!out) {
-        say_error("out of memory");
-        exit(STATUS_TROUBLE);
-    }
+    FILE *out = say_text_begin(&text, &size);
     for (size_t i = 0; i < results->count; i++) skipped += results->cases[i].unchanged;
     fputs("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n  <testsuite name=\"monge test\"", out);
     fprintf(out, " tests=\"%zu\" failures=\"%zu\" errors=\"%zu\" skipped=\"%zu\" time=\"%.3f\">\n",
@@ -112,7 +104,7 @@ char *golden_junit_text(const struct golden_results *results) {
     for (size_t i = 0; i < results->count; i++) put_case(out, &results->cases[i]);
     if (interruption) put_interruption(out, interruption);
     fputs("  </testsuite>\n</testsuites>\n", out);
-    fclose(out);
+    say_text_end(out);
     free(interruption);
     return text;
 }

@@ -9,10 +9,7 @@
 
 static void add_change(struct golden_case *c, char *text) {
     char **changes = realloc(c->changes, (c->change_count + 1) * sizeof *changes);
-    if (!changes) {
-        say_error("out of memory");
-        exit(STATUS_TROUBLE);
-    }
+    if (!changes) say_no_memory();
     c->changes = changes;
     c->changes[c->change_count++] = text;
 }

@@ -132,13 +132,9 @@ static void print_line(FILE *out, const char *name, const struct golden_stamp *s
 char *golden_lock_text(const char *name, const struct golden_stamp *stamp) {
     char *text = NULL;
     size_t size = 0;
-    FILE *out = open_memstream(&text, &size);
-    if (!out) {
-        say_error("out of memory");
-        exit(STATUS_TROUBLE);
-    }
+    FILE *out = say_text_begin(&text, &size);
     print_line(out, name, stamp);
-    fclose(out);
+    say_text_end(out);
     return text;
 }
 
@@ -156,10 +152,7 @@ static int compare_lines(const void *a, const void *b) {
 
 static struct golden_line *add_line(struct golden_lock *lock) {
     lock->lines = realloc(lock->lines, (lock->count + 1) * sizeof *lock->lines);
-    if (!lock->lines) {
-        say_error("out of memory");
-        exit(STATUS_TROUBLE);
-    }
+    if (!lock->lines) say_no_memory();
     lock->lines[lock->count] = (struct golden_line){0};
     return &lock->lines[lock->count++];
 }

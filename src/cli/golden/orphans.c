@@ -39,9 +39,8 @@ static const struct known *find(const struct known *all, size_t count, const cha
 
 static struct known *make_known(size_t count) {
     struct known *all = calloc(count + 1, sizeof *all);
-    if (all) return all;
-    say_error("out of memory");
-    exit(STATUS_TROUBLE);
+    if (!all) say_no_memory();
+    return all;
 }
 
 static void begin(struct search *search) {
@@ -85,10 +84,7 @@ static bool may_be_needed(const struct search *search, const char *golden) {
 static void add_orphan(struct golden_results *results, const char *name, enum monge_golden_kind kind,
                        char *path) {
     results->cases = realloc(results->cases, (results->count + 1) * sizeof *results->cases);
-    if (!results->cases) {
-        say_error("out of memory");
-        exit(STATUS_TROUBLE);
-    }
+    if (!results->cases) say_no_memory();
     results->cases[results->count++] = (struct golden_case){
         .name = say_text("%s", name), .kind = kind, .status = GOLDEN_ORPHAN, .golden_path = path};
 }
@@ -151,10 +147,7 @@ static int compare_pixels(const void *a, const void *b) {
 /* Those without a golden, by their pixels. To be freed. */
 static struct golden_case **find_new(struct golden_results *results, size_t *count) {
     struct golden_case **all = calloc(results->count + 1, sizeof *all);
-    if (!all) {
-        say_error("out of memory");
-        exit(STATUS_TROUBLE);
-    }
+    if (!all) say_no_memory();
     *count = 0;
     for (size_t i = 0; i < results->count; i++)
         if (results->cases[i].status == GOLDEN_NEW && *results->cases[i].now.pixels)

@@ -11,14 +11,9 @@ struct golden_place {
     struct scene_folder last;
 };
 
-static void no_memory(void) {
-    say_error("out of memory");
-    exit(STATUS_TROUBLE);
-}
-
 void golden_places_add(struct golden_places *places, const char *folder) {
     places->folders = realloc(places->folders, (places->count + 1) * sizeof *places->folders);
-    if (!places->folders) no_memory();
+    if (!places->folders) say_no_memory();
     places->folders[places->count++] = say_text("%s", folder);
 }
 
@@ -39,7 +34,7 @@ void golden_places_free(struct golden_places *places) {
 
 static void add_place(struct golden_places *places, const char *folder) {
     places->all = realloc(places->all, (places->all_count + 1) * sizeof *places->all);
-    if (!places->all) no_memory();
+    if (!places->all) say_no_memory();
     places->all[places->all_count++] = (struct golden_place){.folder = say_text("%s", folder)};
 }
 

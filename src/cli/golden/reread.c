@@ -88,10 +88,7 @@ static bool read_cases(struct golden_results *results, const struct monge_value 
     size_t count = 0;
     for (const struct monge_value *v = monge_value_first(list); v; v = monge_value_next(v)) count++;
     results->cases = calloc(count + 1, sizeof *results->cases);
-    if (!results->cases) {
-        say_error("out of memory");
-        exit(STATUS_TROUBLE);
-    }
+    if (!results->cases) say_no_memory();
     for (const struct monge_value *v = monge_value_first(list); v; v = monge_value_next(v)) {
         read_case(v, &results->cases[results->count++]);
         if (!results->cases[results->count - 1].name) return false;

@@ -234,14 +234,13 @@ static void put_head(FILE *out, const struct golden_results *results) {
 char *golden_results_text(const struct golden_results *results) {
     char *text = NULL;
     size_t size = 0;
-    FILE *out = open_memstream(&text, &size);
-    if (out) put_head(out, results);
-    for (size_t i = 0; out && i < results->count; i++) {
+    FILE *out = say_text_begin(&text, &size);
+    put_head(out, results);
+    for (size_t i = 0; i < results->count; i++) {
         put_case(out, &results->cases[i]);
         fputs(i + 1 < results->count ? ",\n" : "\n", out);
     }
-    if (out) fputs(" ]}\n", out);
-    if (out && fclose(out) == 0) return text;
-    say_error("out of memory");
-    exit(STATUS_TROUBLE);
+    fputs(" ]}\n", out);
+    say_text_end(out);
+    return text;
 }

@@ -20,10 +20,7 @@ static bool split_words(struct golden_rule *rule, int *count) {
     bool open = false;
     char *at = rule->text = say_text("%s", rule->rule->options);
     rule->words = calloc(strlen(at) + 2, sizeof *rule->words);
-    if (!rule->words) {
-        say_error("out of memory");
-        exit(STATUS_TROUBLE);
-    }
+    if (!rule->words) say_no_memory();
     for (*count = 0; (rule->words[*count] = word_next(&at, &open)); ++*count) continue;
     if (open) say_error("a quote is not closed");
     return !open;

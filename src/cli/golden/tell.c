@@ -44,7 +44,8 @@ static void print_field(FILE *out, const char *key, const char *text, const char
     if (text) say_line(out, "%s%s%s", before, key, text);
 }
 
-void golden_print_details(FILE *out, const struct golden_case *c, const char *before) {
+/* All but golden_detail, each line with `before` ahead of it. */
+static void print_details(FILE *out, const struct golden_case *c, const char *before) {
     if (c->message) print_lines(out, c->message, before);
     if (c->status == GOLDEN_SAME) return;
     for (size_t i = 0; i < c->change_count; i++) print_lines(out, c->changes[i], before);
@@ -58,6 +59,15 @@ void golden_print_details(FILE *out, const struct golden_case *c, const char *be
     print_field(out, "old: ", c->old_command, before);
 }
 
+char *golden_details(const struct golden_case *c) {
+    char *text = NULL;
+    size_t size = 0;
+    FILE *out = say_text_begin(&text, &size);
+    print_details(out, c, "");
+    say_text_end(out);
+    return text;
+}
+
 /* ---- In a terminal ---- */
 
 static void tell_line(const struct golden_teller *teller, const struct golden_case *c) {
@@ -67,7 +77,7 @@ static void tell_line(const struct golden_teller *teller, const struct golden_ca
     fprintf(teller->out, "%-8s", GOLDEN_STATUS[c->status]);
     if (teller->colors) fputs("\033[0m", teller->out);
     say_line(teller->out, " %s%s%s", c->name, detail ? "  " : "", detail ? detail : "");
-    golden_print_details(teller->out, c, "         ");
+    print_details(teller->out, c, "         ");
     free(detail);
 }
 
@@ -81,15 +91,11 @@ static void put_description(FILE *out, const char *name) {
 }
 
 static void put_block(FILE *to, const struct golden_case *c) {
-    char *detail = golden_detail(c), *lines = NULL;
-    size_t size = 0;
-    FILE *out = open_memstream(&lines, &size);
-    if (out) golden_print_details(out, c, "");
-    if (out) fclose(out);
+    char *detail = golden_detail(c), *lines = golden_details(c);
     fprintf(to, "  ---\n  status: %s\n  detail: ", GOLDEN_STATUS[c->status]);
     monge_write_json_string(detail ? detail : "", to);
     fputs("\n  lines: ", to);
-    monge_write_json_string(lines ? lines : "", to);
+    monge_write_json_string(lines, to);
     fputs("\n  ...\n", to);
     free(lines);
     free(detail);

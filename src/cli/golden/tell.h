@@ -22,8 +22,8 @@ void golden_tell_end(struct golden_teller *teller, const struct golden_results *
 /* What is to be said of a case beside its status: a sentence to its line; NULL: nothing. To be freed. */
 char *golden_detail(const struct golden_case *c);
 
-/* Line by line all the rest, each with `before` ahead of it. */
-void golden_print_details(FILE *out, const struct golden_case *c, const char *before);
+/* All the rest, perhaps many lines. To be freed. */
+char *golden_details(const struct golden_case *c);
 
 /* The results as JUnit has them, XML. To be freed. */
 char *golden_junit_text(const struct golden_results *results);
