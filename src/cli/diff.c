@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "cli/diff_folders.h"
+#include "cli/paths.h"
 #include "cli/say.h"
 
 static bool is_stream(const char *path) { return strcmp(path, "-") == 0; }
@@ -110,7 +111,7 @@ static enum status diff_files(const struct diff *diff, const char *a, const char
 /* The operand, or the file in that folder which is called as the other operand. To be freed. NULL: told. */
 static char *find_file(const char *operand, const char *other) {
     const char *slash = strrchr(other, '/');
-    if (!diff_is_folder(operand)) return say_text("%s", operand);
+    if (!path_is_folder(operand)) return say_text("%s", operand);
     if (!is_stream(other)) return diff_path(operand, slash ? slash + 1 : other);
     say_usage(COMMAND_DIFF, "standard input has no name to look for in %s", operand);
     return NULL;
@@ -118,7 +119,7 @@ static char *find_file(const char *operand, const char *other) {
 
 static enum status compare(const struct diff *diff, struct monge_diagnostics *diag) {
     char *const *operands = diff->args->operands;
-    if (diff_is_folder(operands[0]) && diff_is_folder(operands[1]))
+    if (path_is_folder(operands[0]) && path_is_folder(operands[1]))
         return !diff->mask || monge_picture_decode(diff->mask, diag) ? diff_folders(diff) : STATUS_TROUBLE;
     char *a = find_file(operands[0], operands[1]), *b = find_file(operands[1], operands[0]);
     const enum status status =

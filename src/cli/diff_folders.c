@@ -41,11 +41,6 @@ struct folders {
     bool unread;      /* a folder */
 };
 
-bool diff_is_folder(const char *path) {
-    struct stat status;
-    return stat(path, &status) == 0 && S_ISDIR(status.st_mode);
-}
-
 char *diff_path(const char *folder, const char *name) { return path_below(folder, name, ""); }
 
 /* ---- What is there ---- */

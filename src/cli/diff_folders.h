@@ -8,7 +8,6 @@
 
 #include "cli/diff_pair.h"
 
-bool diff_is_folder(const char *path);
 char *diff_path(const char *folder, const char *name); /* to be freed */
 
 /* Compares the two operands; the mask of `diff` is decoded. */
