@@ -66,6 +66,17 @@ static inline void unload(struct loaded *l) {
     diag_free(&l->diag);
 }
 
+/* The hash of the scene of a text that must be right. */
+static inline struct hash load_hash(const char *text) {
+    struct loaded l;
+    struct hash hash;
+    load_good(&l, text);
+    hash_begin(&hash);
+    scene_hash(&l.scene, &hash);
+    unload(&l);
+    return hash;
+}
+
 /* ---- A sink that keeps the shapes and groups, as copies ---- */
 
 struct collected {

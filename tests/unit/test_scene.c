@@ -679,16 +679,6 @@ static void one_more_than_may_be_of_a_kind(void **state) {
 
 /* ---- The hash ---- */
 
-static struct hash hash_of(const char *text) {
-    struct loaded l;
-    struct hash hash;
-    load_good(&l, text);
-    hash_begin(&hash);
-    scene_hash(&l.scene, &hash);
-    unload(&l);
-    return hash;
-}
-
 static const char *const hash_base =
     "image: {background: {bottom: '#111', top: '#222'}}\n"
     "camera: {eye: [0, 0, 5], look_at: [0, 0, 1], up: [0, 1, 0], fov: 40}\n"
@@ -786,7 +776,7 @@ static void check_change(void **state) {
         memmove(gold + strlen(row->from), gold, strlen(gold) + 1);
         memcpy(gold, row->from, strlen(row->from));
     }
-    const struct hash base = hash_of(hash_base), changed = hash_of(text);
+    const struct hash base = load_hash(hash_base), changed = load_hash(text);
     assert_int_equal(memcmp(&base, &changed, sizeof base) == 0, row->same);
 }
 
@@ -808,7 +798,7 @@ static struct equal_hash {
 
 static void check_equal_hash(void **state) {
     const struct equal_hash *row = *state;
-    const struct hash a = hash_of(row->a), b = hash_of(row->b);
+    const struct hash a = load_hash(row->a), b = load_hash(row->b);
     assert_memory_equal(&a, &b, sizeof a);
 }
 
