@@ -1,38 +1,25 @@
-#!/bin/sh
+#!/usr/bin/env bash
 # Each tests/errors/NAME.yaml gives the messages of NAME.txt, byte for byte, and exit code 1; or 0 when
-# they are warnings alone, or none: tests/errors.sh MONGE [--update]. --update writes the .txt anew: read them.
-monge=$(realpath "$1") || exit 2
-update=$2
-cd "$(dirname "$0")/errors" || exit 2
-found=$(mktemp) || exit 2
-trap 'rm -f "$found"' EXIT
-passed=0 failed=0
+# they are warnings alone, or none: tests/errors.sh [PROGRAM [--update]]. --update writes the .txt anew: read them.
 
+. "$(dirname "$0")/lib/testing.sh"
+update=$2 wanted=$project/tests/errors
+cp -R "$wanted"/. .
+
+# gives TEXT: whether the messages are those of the file, and the exit status that of them.
+gives() {
+    local expected=0
+    grep -q -E '^[^ ]+: error\[' "$1" && expected=1
+    diff -u "$1" err && [ "$status" -eq $expected ]
+}
 for scene in *.yaml; do
-    want=${scene%.yaml}.txt
-    "$monge" check "$scene" >/dev/null 2>"$found" </dev/null
-    status=$?
-    [ "$update" = --update ] && cp "$found" "$want"
-    if [ ! -e "$want" ]; then
-        failed=$((failed + 1))
-        echo "FAILED $scene: $want is missing"
-        continue
-    fi
-    expected=0
-    grep -q -E '^[^ ]+: error\[' "$want" && expected=1
-    if [ $status -eq $expected ] && cmp -s "$found" "$want"; then
-        passed=$((passed + 1))
-    else
-        failed=$((failed + 1))
-        echo "FAILED $scene: exit code $status, expected $expected"
-        diff -u "$want" "$found"
-    fi
+    want=$wanted/${scene%.yaml}.txt
+    run check "$scene"
+    [ "$update" = --update ] && cp err "$want"
+    ok "$scene" gives "$want"
 done
 for want in *.txt; do
-    [ -e "${want%.txt}.yaml" ] && continue
-    failed=$((failed + 1))
-    echo "FAILED $want: its scene is missing"
+    [ -e "${want%.txt}.yaml" ] || ok "$want has its scene" false
 done
 
-echo "errors: $passed passed, $failed failed"
-[ "$passed" -gt 0 ] && [ "$failed" -eq 0 ]
+told

@@ -1,48 +1,36 @@
-#!/bin/sh
+#!/usr/bin/env bash
 # Each tests/import/NAME.yml, in the format of "The Ray Tracer Challenge", becomes NAME.yaml with the messages
 # of NAME.txt, byte for byte; that loads without an error and renders. A wrong one has no NAME.yaml, and
-# leaves the file of -o as it is: tests/import.sh MONGE [--update]. --update writes both anew: read them.
-monge=$(realpath "$1") || exit 2
-update=$2
-cd "$(dirname "$0")/import" || exit 2
-work=$(mktemp -d) || exit 2
-trap 'rm -rf "$work"' EXIT
-passed=0 failed=0
+# leaves the file of -o as it is: tests/import.sh [PROGRAM [--update]]. --update writes both anew: read them.
 
-fail() {
-    failed=$((failed + 1))
-    echo "FAILED $*"
+. "$(dirname "$0")/lib/testing.sh"
+update=$2 wanted=$project/tests/import
+cp "$wanted"/*.yml .
+
+renders() { "$monge" render -q "$1" --size 24x16 -o picture.png 2>said && ! grep -q 'error\[' said || { cat said; false; }; }
+
+# The same through standard streams, but for the first line, which has the name.
+pipes() { "$monge" import - <"$1" 2>/dev/null | sed 1d | diff <(sed 1d "$2") -; }
+
+# What must hold of a book that `monge import` has just read to made.yaml.
+becomes() {
+    local book=$1.yml text=$wanted/$1.txt scene=$wanted/$1.yaml
+    diff -u "$text" err && [ ! -s out ] || return
+    if [ -e "$scene" ]; then
+        [ "$status" -eq 0 ] && diff -u "$scene" made.yaml && renders made.yaml && pipes "$book" made.yaml
+    else
+        [ "$status" -eq 1 ] && [ "$(cat made.yaml)" = before ]
+    fi
 }
-
 for book in *.yml; do
     name=${book%.yml}
-    echo before >"$work/out.yaml"
-    "$monge" import "$book" -o "$work/out.yaml" >"$work/stdout" 2>"$work/messages" </dev/null
-    status=$?
+    echo before >made.yaml
+    run import "$book" -o made.yaml
     if [ "$update" = --update ]; then
-        cp "$work/messages" "$name.txt"
-        [ $status -eq 0 ] && cp "$work/out.yaml" "$name.yaml"
+        cp err "$wanted/$name.txt"
+        [ "$status" -eq 0 ] && cp made.yaml "$wanted/$name.yaml"
     fi
-    expected=0
-    [ -e "$name.yaml" ] || expected=1
-    if [ $status -ne $expected ] || ! cmp -s "$name.txt" "$work/messages" || [ -s "$work/stdout" ]; then
-        fail "$book: exit code $status, expected $expected"
-        diff -u "$name.txt" "$work/messages"
-    elif [ $status -ne 0 ]; then
-        if [ "$(cat "$work/out.yaml")" = before ]; then passed=$((passed + 1)); else fail "$book: wrong, but written"; fi
-    elif ! diff -u "$name.yaml" "$work/out.yaml"; then
-        fail "$book: not what it was"
-    elif ! "$monge" render -q "$work/out.yaml" --size 24x16 -o "$work/out.png" 2>"$work/messages" ||
-        grep -q 'error\[' "$work/messages"; then
-        fail "$name.yaml does not render"
-        cat "$work/messages"
-    elif "$monge" import - <"$book" 2>/dev/null | sed 1d >"$work/piped" && # the first line has the name
-        ! sed 1d "$work/out.yaml" | cmp -s - "$work/piped"; then
-        fail "$book: not the same through standard streams"
-    else
-        passed=$((passed + 1))
-    fi
+    ok "$book" becomes "$name"
 done
 
-echo "import: $passed passed, $failed failed"
-[ "$passed" -gt 0 ] && [ "$failed" -eq 0 ]
+told

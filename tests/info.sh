@@ -1,47 +1,29 @@
-#!/bin/sh
+#!/usr/bin/env bash
 # monge info tells what is in tests/info/NAME.txt of each tests/info/NAME.yaml, and the same numbers as JSON:
-#   tests/info.sh MONGE [--update]
+#   tests/info.sh [PROGRAM [--update]]
 # Bytes are left out: they differ between machines. --update writes the .txt anew: read them.
-monge=$(realpath "$1") || exit 2
-update=$2
-cd "$(dirname "$0")/info" || exit 2
-work=$(mktemp -d) || exit 2
-trap 'rm -rf "$work"' EXIT
-passed=0 failed=0
 
-check() { # check NAME COMMAND...
-    name=$1
-    shift
-    if "$@" >"$work/said" 2>&1; then
-        passed=$((passed + 1))
-    else
-        failed=$((failed + 1))
-        echo "FAILED $name"
-        sed 's/^/    /' "$work/said"
-    fi
-}
+. "$(dirname "$0")/lib/testing.sh"
+update=$2 wanted=$project/tests/info
+cp "$wanted"/*.yaml .
 
 without_bytes() { sed -E '/^memory/d; s/, [0-9.]+ (bytes|KiB|MiB|GiB)$//'; }
 
 for scene in *.yaml; do
-    want=${scene%.yaml}.txt
-    "$monge" info "$scene" 2>"$work/errors" </dev/null | without_bytes >"$work/found"
-    [ "$update" = --update ] && cp "$work/found" "$want"
-    check "$scene" diff -u "$want" "$work/found"
-    check "$scene: silent on standard error" cmp "$work/errors" /dev/null
-    "$monge" info --json "$scene" >"$work/json" 2>&1 </dev/null
+    want=$wanted/${scene%.yaml}.txt
+    run info "$scene"
+    without_bytes <out >found
+    [ "$update" = --update ] && cp found "$want"
+    ok "$scene" diff -u "$want" found
+    no_err
+    run info --json "$scene"
     stored=$(sed -n -E 's/^primitives +([0-9,]+).*/\1/p' "$want" | tr -d ,)
-    check "$scene: as many primitives in JSON" grep -q "^  \"primitives\": {\"stored\": $stored," "$work/json"
-    if command -v python3 >/dev/null; then check "$scene: JSON" python3 -m json.tool "$work/json"; fi
+    out_has "  \"primitives\": {\"stored\": $stored,"
+    if have python3; then ok "$scene: JSON" python3 -m json.tool out; fi
 done
 
-printf 'scene: [{spere: {}}]\n' >"$work/wrong.yaml"
-"$monge" info "$work/wrong.yaml" >"$work/out" 2>"$work/errors"
-check "a wrong scene: exit code 1" [ $? -eq 1 ]
-check "a wrong scene: nothing on standard output" cmp "$work/out" /dev/null
-check "a wrong scene: why" grep -qF 'error[unknown-key]' "$work/errors"
-"$monge" info "$work/none.yaml" >"$work/out" 2>"$work/errors"
-check "no file: exit code 2" [ $? -eq 2 ]
+printf 'scene: [{spere: {}}]\n' >wrong.yaml
+exits 1 info wrong.yaml; no_out; err_has 'error[unknown-key]'
+exits 2 info none.yaml
 
-echo "info: $passed passed, $failed failed"
-[ "$passed" -gt 0 ] && [ "$failed" -eq 0 ]
+told
