@@ -1,65 +1,48 @@
 #!/usr/bin/env bash
-# Diagnostics for programs: tests/formats.sh BUILD/monge [--update]. The documents about two scenes and two files that are
+# Diagnostics for programs: tests/formats.sh [PROGRAM [--update]]. The documents about two scenes and two files that are
 # missing are those of tests/formats/, byte for byte; with python3, their structure is tested on more of them.
-monge=$(realpath "$1") || exit 2
-cd "$(dirname "$0")/formats" || exit 2
-work=$(mktemp -d) || exit 2
-trap 'rm -rf "$work"' EXIT
-export LC_ALL=C
-passed=0 failed=0
 
-check() { # check NAME COMMAND...
-    if "${@:2}" >"$work/said" 2>&1; then
-        passed=$((passed + 1))
-    else
-        failed=$((failed + 1))
-        echo "FAILED: $1"
-        head -n 40 "$work/said" | sed 's/^/    /'
-    fi
-}
+. "$(dirname "$0")/lib/testing.sh"
+export LC_ALL=C
+update=$2 wanted=$project/tests/formats
+cp "$wanted"/*.yaml .
+
 version() { sed 's/^\(          "version": \)"[0-9.]*"/\1"x.y.z"/' "$1"; } # of monge, not of SARIF
 
 # ---- The exact documents ----
 
 for format in json sarif; do
-    "$monge" check --format $format wrong.yaml ok.yaml absent.yaml $'100% "gr\xc3\xb6\xc3\x9fe"\xff.yaml' >"$work/out" 2>"$work/err"
-    check "$format: exit 2 where a file is missing" [ $? -eq 2 ]
-    version "$work/out" >"$work/expected.$format"
-    [ "$2" = --update ] && cp "$work/expected.$format" "expected.$format"
-    check "$format: the document" diff -u "expected.$format" "$work/expected.$format"
-    check "$format: nothing on stderr" [ ! -s "$work/err" ]
+    exits 2 check --format $format wrong.yaml ok.yaml absent.yaml $'100% "gr\xc3\xb6\xc3\x9fe"\xff.yaml'; no_err
+    version out >expected.$format
+    [ "$update" = --update ] && cp expected.$format "$wanted"
+    ok "$format: the document" diff -u "$wanted/expected.$format" expected.$format
 done
 
 # ---- Where documents go ----
 
-"$monge" check --format json wrong.yaml >"$work/json" 2>/dev/null
-check "check: exit 1 where a scene is wrong" [ $? -eq 1 ]
-"$monge" check --format json ok.yaml >"$work/empty"
-check "check: exit 0 where all is well" [ $? -eq 0 ]
-check "an empty list where all is well" [ "$(cat "$work/empty")" = '[]' ]
-"$monge" check --format text wrong.yaml >"$work/out" 2>"$work/text"
-check "text is what there is without --format" sh -c "'$monge' check wrong.yaml 2>&1 >/dev/null | cmp - '$work/text'"
-"$monge" render --format json --size 8x8 wrong.yaml ok.yaml -o "$work/" >"$work/out" 2>"$work/err"
-check "render: exit 1 where a scene is wrong" [ $? -eq 1 ]
-check "render: the others are rendered" [ -s "$work/ok.png" ]
-check "render: stderr has the document alone" cmp "$work/json" "$work/err"
-check "render: nothing on stdout" [ ! -s "$work/out" ]
-"$monge" render --format sarif --size 8x8 ok.yaml -o - >/dev/full 2>"$work/full.sarif"
-check "render: exit 2 where a picture cannot be written" [ $? -eq 2 ]
-check "render: a failure is a notification" grep -q '"id": "cannot-write"' "$work/full.sarif"
+exits 1 check --format json wrong.yaml; cp out json
+exits 0 check --format json ok.yaml; out_is '[]'; cp out empty
+run check wrong.yaml; cp err text
+run check --format text wrong.yaml; same err text # text is what there is without --format
+exits 1 render --format json --size 8x8 wrong.yaml ok.yaml -o ./; no_out
+there ok.png
+same json err
+"$monge" render --format sarif --size 8x8 ok.yaml -o - >/dev/full 2>full.sarif
+ok "render: exit 2 where a picture cannot be written" [ $? -eq 2 ]
+ok "render: a failure is a notification" grep -q '"id": "cannot-write"' full.sarif
 
 # ---- Files that cannot be read, written or found ----
 
-echo 'scene: [{sphere: {}}]' >"$work/still.yaml"; cp "$work/still.yaml" "$work/also.yaml"; echo >"$work/file"
+echo 'scene: [{sphere: {}}]' >still.yaml; cp still.yaml also.yaml; echo >file
 codes() { python3 -c 'import json, sys; print(*[d["severity"] + " " + d["code"] for d in json.load(open(sys.argv[1]))], sep="; ")' "$1"; }
 # fails CODES ARGS...: what `monge render --format json ARGS` has in its document, with exit 2 and nothing else on stderr.
 fails() {
-    (cd "$work" && "$monge" render --format json --size 8x8 "${@:2}" >"$work/out" 2>"$work/failed.json")
-    check "exit 2: render ${*:2}" [ $? -eq 2 ]
-    command -v python3 >/dev/null && check "$1: render ${*:2}" [ "$(codes "$work/failed.json")" = "$1" ]
+    exits 2 render --format json --size 8x8 "${@:2}"
+    cp err failed.json
+    have python3 && ok "$1: render ${*:2}" [ "$(codes failed.json)" = "$1" ]
 }
 fails 'failure no-match' 'x*.yaml' still.yaml
-check "the others are rendered" [ -s "$work/still.png" ]
+there still.png # the others are rendered
 fails 'failure no-match' 'x*.yaml'
 fails 'failure cannot-read' @none
 fails 'failure cannot-make-folder' still.yaml -o file/
@@ -72,29 +55,28 @@ fails 'failure no-frame; failure no-frame' still.yaml also.yaml --frames 2 -o '{
 fails 'failure outside-region' still.yaml --region 4,4,8,8
 fails 'failure limit-pixels' still.yaml --limit pixels=10
 fails 'failure no-match; failure cannot-make-folder' 'x*.yaml' still.yaml -o file/
-"$monge" check --format sarif 'x*.yaml' >"$work/match.sarif"
-check "a notification" grep -q '"id": "no-match"' "$work/match.sarif"
-"$monge" check 'x*.yaml' 2>"$work/text"
-check "a code in text as well" [ "$(cat "$work/text")" = 'monge: error[no-match]: x*.yaml: no file matches' ]
+run check --format sarif 'x*.yaml'; out_has '"id": "no-match"'; cp out match.sarif
+run check 'x*.yaml'
+ok "a code in text as well" [ "$(cat err)" = 'monge: error[no-match]: x*.yaml: no file matches' ]
 
 # ---- Structure ----
 
-{ echo 'scene:'; for i in $(seq 60); do echo "  - sphere: {x$i: 1}"; done; } >"$work/many.yaml"
-cp "$work/many.yaml" "$work/more.yaml"
-"$monge" check --format json "$work/many.yaml" "$work/more.yaml" wrong.yaml >"$work/many.json"
-"$monge" check --format sarif "$work/many.yaml" >"$work/many.sarif"
-"$monge" check --format json ../errors/*.yaml >"$work/all.json"
-"$monge" check --format sarif ../errors/*.yaml >"$work/all.sarif"
-"$monge" check --format sarif "$PWD/wrong.yaml" >"$work/absolute.sarif"
-printf 'scene: []' | "$monge" check --format sarif - >"$work/stdin.sarif"
-printf 'scene:\n  - sphere: {raduis: 2}' | "$monge" check --format json - >"$work/stdin.json"
+{ echo 'scene:'; for i in $(seq 60); do echo "  - sphere: {x$i: 1}"; done; } >many.yaml
+cp many.yaml more.yaml
+"$monge" check --format json many.yaml more.yaml wrong.yaml >many.json
+"$monge" check --format sarif many.yaml >many.sarif
+"$monge" check --format json "$project"/tests/errors/*.yaml >all.json
+"$monge" check --format sarif "$project"/tests/errors/*.yaml >all.sarif
+"$monge" check --format sarif "$PWD/wrong.yaml" >absolute.sarif
+printf 'scene: []' | "$monge" check --format sarif - >stdin.sarif
+printf 'scene:\n  - sphere: {raduis: 2}' | "$monge" check --format json - >stdin.json
 
 structure() {
-    python3 - "$work" <<'PYTHON'
-import json, os, re, sys
+    python3 - <<'PYTHON'
+import json, re
 
 def read(name):
-    with open(os.path.join(sys.argv[1], name), encoding="utf-8") as file:
+    with open(name, encoding="utf-8") as file:
         return json.load(file)
 
 MEMBERS = ["file", "line", "column", "endLine", "endColumn", "severity", "code", "message", "help", "note", "related"]
@@ -179,7 +161,6 @@ assert uri.startswith("file:///")
 assert read("stdin.json")[0]["file"] == "<stdin>"
 PYTHON
 }
-if command -v python3 >/dev/null; then check "structure" structure; fi
+if have python3; then ok "structure" structure; fi
 
-echo "formats: $passed passed, $failed failed"
-[ "$failed" -eq 0 ]
+told
