@@ -54,6 +54,38 @@ last='test - --golden g'; "$monge" test - --golden g <s/one.yaml >out 2>err; sta
 ok 'a scene on stdin is exit 2' [ $status -eq 2 ]; err_has 'a scene on standard input has no name'
 echo s/one.yaml | "$monge" test - --golden g >out 2>err; says new one
 
+# the folder of the goldens: one that is not there yet, or is none
+fresh; rm -r g
+exits 1 test s --golden g; says new one; ok 'a note, once' [ "$(cat err)" = 'there is no folder g yet: `monge accept` makes it' ]
+exits 1 test s --golden g -q; no_err
+exits 2 test --golden g; ok 'and no scenes' [ "$(cat err)" = 'monge: --golden g: there is no such folder' ]
+exits 0 test s --golden g --update-only-failed; err_has 'there is no folder g yet: this run makes it'
+exits 0 test s --golden g; no_err
+fresh 'kind: hash'; exits 0 test s --golden g --update-only-failed -q
+for command in 'test s' accept; do
+    for file in golden.yaml golden.lock; do
+        exits 2 $command --golden g/$file; ok 'one message' [ "$(cat err)" = "monge: --golden g/$file: it takes the folder, g" ]
+    done
+    exits 2 $command --golden s/one.yaml; err_has '--golden s/one.yaml: it takes a folder'
+done
+(cd g && "$monge" test ../s --golden golden.yaml) >out 2>err; err_has '--golden golden.yaml: it takes the folder, .'
+fresh; echo 'kind: hash' >g/golden.yml
+exits 1 test s --golden g; err_has 'monge: warning: g/golden.yml is not read: it must be called golden.yaml'
+mv g/golden.yml g/golden.yaml; exits 1 test s --golden g; no_err
+# options of render
+refers() { local options=$1; shift; exits 2 test s --golden g "$@"; err_has "no option \`${1%%=*}\`; it goes into golden.yaml, \`rules: [{scenes: \"*\", $options}]\`"; }
+refers 'options: "--size 10x10"' --size 10x10
+refers 'options: "--size 10x10"' --size=10x10
+refers 'options: "--size WxH"' --size
+refers 'options: "-D a=1"' -D a=1
+refers 'options: "-D NAME=VALUE"' -D 'a="b"'
+refers 'options: --no-shadows' --no-shadows
+refers 'options: "--frames 1-3"' --frames 1-3
+refers 'aov: true' --aov depth
+exits 2 test s --golden g -Da=1; err_has 'options: "-D a=1"'
+exits 2 test s --golden g --resume; err_lacks golden.yaml # no picture differs by that
+exits 2 accept --golden g --size 10x10; err_lacks golden.yaml
+
 # ---- The life of a golden, of each kind ----
 
 for kind in png hash both; do
@@ -87,7 +119,8 @@ for kind in png hash both; do
     ok 'the order of the operands' [ "$(grep -oE '^(same|changed) +[a-z]+' out | tr -s ' ' | tr '\n' ,)" = 'same two,changed one,' ]
     ok 'a run touches no golden' [ "$(sums g)" = "$(cat before)" ]
 
-    exits 2 accept two 'x*' --golden g; err_has 'x*: no golden of the last run is called so'
+    exits 2 accept two 'x*' --golden g; err_has 'x*: no golden of the last run is called so'; err_lacks 'did you mean'
+    exits 2 accept s/one.yaml --golden g; err_has 's/one.yaml: no golden of the last run is called so; did you mean `one`?'
     exits 0 accept two --golden g; out_has '0 taken'
     ok 'what did not fail is not touched' [ "$(sums g)" = "$(cat before)" ]
     cp s/one.yaml kept; echo '# more' >>s/one.yaml
@@ -107,7 +140,7 @@ for kind in png hash both; do
     exits 0 test s --golden g; out_has '2 goldens: 2 same'
     echo 'scene: [{sphre: {}}]' >s/one.yaml
     exits 1 test s --golden g; says broken one; out_has 'did you mean `sphere`?'; out_lacks orphan
-    exits 0 accept --golden g; out_has '0 taken'
+    exits 1 accept --golden g; out_has '0 taken, 1 left as they are'; err_has 'one is left as it is: it is broken'
     scene s/three.yaml blue
     scene s/one.yaml lime
     exits 0 test s --golden g --update-only-failed; says new three; says changed one; out_has '2 of 2 new pictures are goldens now'
@@ -153,6 +186,16 @@ printf '#!/bin/sh\nsed -i "/^one /s/pixels=..../pixels=0000/" g/golden.lock\n' >
 exits 1 test s --golden g --old ./old --update-only-failed; err_has 'one is left as it is: its golden has changed during the run'
 out_has '0 of 1 new pictures are goldens now'; ok 'the line of others stays' grep -q '^one .*pixels=0000' g/golden.lock
 
+# ---- Names that could be another line ----
+
+for name in '#h' '=======' '<<<<<<< a' '>>>>>>>' '|||||||' '=' '%23'; do
+    fresh 'kind: hash'; scene "s/$name.yaml" blue; exits 0 test s --golden g --update-only-failed -q
+    exits 0 test s --golden g; out_has '4 goldens: 4 same'; exits 1 test s --golden g --golden-kind both; out_lacks orphan
+    scene "s/$name.yaml" red; exits 1 test s --golden g -q; exits 0 accept "[$name]*" --golden g; exits 0 test s --golden g
+    rm "s/$name.yaml"; exits 1 test s --golden g; out_has '1 orphan'; exits 0 accept --golden g --prune
+    ok 'its line is gone' [ "$(grep -c pixels= g/golden.lock)" -eq 3 ]
+done
+
 # ---- Missing goldens ----
 
 fresh 'kind: both'
@@ -185,6 +228,7 @@ lock '../x 1x1x8 pixels=%s\n' $hash; err_has 'no name of a golden'
 lock '/x 1x1x8 pixels=%s\n' $hash; err_has 'no name of a golden'
 lock 'x//y 1x1x8 pixels=%s\n' $hash; err_has 'no name of a golden'
 lock 'x%%2F..%%2Fy 1x1x8 pixels=%s\n' $hash; err_has 'no name of a golden'
+lock 'x%%23 1x1x8 pixels=%s\n' $hash; err_has 'no name of a golden' # not as it is written
 lock 'x%%00 1x1x8 pixels=%s\n' $hash; err_has 'no name of a golden'
 lock ' x 1x1x8 pixels=%s\n' $hash; err_has 'no name of a golden'
 lock 'x\n'; err_has 'a size is expected'
@@ -214,8 +258,12 @@ exits 1 test s --golden g; says new 'c[?]d'; out_has 'monge-test/new/c?d.png'; e
 
 fresh 'rules: [{scenes: one, optoins: --samples 2}]'
 exits 2 test s --golden g; err_has 'g/golden.yaml:1:23: error[unknown-key]'; err_has 'did you mean `options`?'
-wrong() { fresh "rules:" "  - {scenes: one, options: $1}"; exits 2 test s --golden g; err_has "$2"; err_has 'g/golden.yaml:2: so are the `options` of this rule'; }
-wrong '--sizee 3x3' 'did you mean `--size`?'
+wrong() {
+    fresh "rules:" "  - {scenes: one, options: $1}"; exits 2 test s --golden g
+    ok 'one message' [ "$(wc -l <err)" -eq 1 ]; err_has 'monge: g/golden.yaml:2: options: '; err_has "$2"
+}
+wrong '--sizee 3x3' 'options: no option `--sizee`; did you mean `--size`?'
+wrong '-D a' '-D: expected NAME=VALUE, found `a`'
 wrong '--size 3' 'expected WxH'
 wrong '-o x.png' '--output does not change pixels'
 wrong '--threads 1' '--threads does not change pixels'
@@ -234,9 +282,22 @@ ok 'the first rule that matches' grep -qa 'options.*--size 20x10' g/one.png
 ok 'it alone' sh -c '! grep -qa -e --samples g/one.png'
 ok 'a rule for the rest' grep -qa -e '--samples 2' g/two.png
 sed -i 's/20x10/21x10/' g/golden.yaml
-exits 1 test s --golden g; says changed one; out_has 'another size'; out_has 'the options differ'; out_has '--size 21x10 -o one.png'
+exits 1 test s --golden g; says changed one; out_has 'another size: 21x10, the golden 20x10'; out_has 'the options differ'; out_has '--size 21x10 -o one.png'
 sed -i 's/21x10/22x10/' g/golden.yaml
 exits 1 accept --golden g; err_has 'one is left as it is: its options in golden.yaml have changed since the run'
+
+# Rules that no scene is left for, in runs of all scenes.
+fresh 'root: ../s' 'rules:' '  - {scenes: one}' '  - {scenes: [tow, two]}' '  - {scenes: "in/*.yaml"}' '  - scenes: "*"' '    aov: true' '  - {scenes: "in/*"}' '  - {scenes: thre}'
+warnings() { ok "${#} warnings" [ "$(cat err)" = "$(printf 'monge: warning: g/golden.yaml:%s\n' "$@")" ]; }
+exits 1 test --golden g
+warnings '4: no scene matches `tow`; did you mean `two`?' '5: no scene matches `in/*.yaml`' '8: earlier rules match all its scenes' '9: no scene matches `thre`'
+exits 0 accept --golden g -q; exits 0 test --golden g --changed -q; ok 'quietly too' [ "$(wc -l <err)" -eq 4 ]
+exits 0 test s/one.yaml s/two.yaml --golden g; no_err; exits 0 test s/in --golden g; no_err
+sed -i 1d g/golden.yaml; exits 0 test s --golden g; err_has 'g/golden.yaml:4: no scene matches `in/*.yaml`'
+exits 1 test s/in --golden g; no_err
+fresh 'rules:' '  - {scenes: one}' '  - {scenes: elsewhere}'; scene extra/elsewhere.yaml lime # scenes of another run
+exits 0 test s extra --golden g --update-only-failed; exits 0 test s --golden g; out_has 'not in this run'; no_err
+rm -r extra; exits 1 test s --golden g; says orphan elsewhere; warnings '3: no scene matches `elsewhere`'
 
 # Frames and parameters: a golden each.
 fresh 'rules:' '  - {scenes: turn, options: "--frames 1-3:2 -D tint=red,\"hsv(120, 1, 1)\""}'
@@ -251,7 +312,7 @@ sed -i 's/box/bxo/' s/turn.yaml; exits 1 test s --golden g; says broken turn-tin
 # A root: the same names however a scene is named, and orphans by what is there.
 fresh 'root: ../s'
 exits 1 test --golden g; says new 'in/a b%'; out_has "monge render 's/in/a b%.yaml'"
-exits 0 accept --golden g
+exits 2 accept "./s/in/a b%.yaml" --golden g; err_has 'did you mean `in/a b%`?'; exits 0 accept --golden g
 exits 0 test 's/in/a b%.yaml' --golden g; says same 'in/a b%'; out_has '1 golden: 1 same'
 exits 0 test s/in --golden g; says same 'in/a b%'
 mv s/two.yaml kept.yaml
@@ -264,6 +325,7 @@ scene one.yaml blue
 exits 2 test s/one.yaml one.yaml --golden g; err_has "one.yaml: it is not below \`root\`, $work/s"; out_has '1 golden: 1 same'
 exits 0 test s s/one.yaml --golden g; out_has '3 goldens: 3 same'
 rm one.yaml
+for root in '' --root=s; do exits 2 test one.yaml --golden g $root; err_has 'cannot read one.yaml: No such file or directory'; err_lacks 'not below'; done
 
 # Many orphans among what is there.
 fresh 'kind: hash'
@@ -516,7 +578,8 @@ sed -i 's/tint: red/tint: blue/' s/one.yaml
 printf '#!/bin/sh\nexec "%s" "$@" -D tint=red\n' "$monge" >old; printf '#!/bin/sh\nexit 1\n' >older; chmod +x old older
 exits 1 test s --golden g --old ./old; says changed one; out_has 'flip'; there monge-test/old/one.png
 exits 1 test s --golden g --old ./older; out_has './older makes no picture of it'; missing monge-test/old/one.png
-exits 1 test s --golden g --old "$monge"; out_has 'makes another picture of it than the golden'
+exits 1 test s --golden g --old "$monge"; says changed one; out_has 'one  its pixels are not those of the hash'
+out_has "$monge does not make the golden's picture of it: the scene has changed, or that is not the program of then"
 if have git; then
     export GIT_CONFIG_GLOBAL=/dev/null GIT_AUTHOR_NAME=a GIT_AUTHOR_EMAIL=a GIT_COMMITTER_NAME=a GIT_COMMITTER_EMAIL=a
     sed -i 's/tint: blue/tint: red/' s/one.yaml
@@ -590,7 +653,7 @@ exits 1 test s --golden g -j 2 --progress json; out_has '5 goldens: 4 new, 1 bro
 ok 'all are done in the end' grep -q '^{"done": 5, "total": 5, "rendered": 4, "unchanged": 0, "failed": 1, "part": 1.0000, .*"seconds_left": 0.000, "running": \[\]}$' err
 ok 'a line for each' [ "$(grep -o '^{"done": [0-9]*' err | sort -u | grep -vc ' 0$')" -eq 5 ]; ok 'and nothing else' [ "$(grep -vc '^{"done": ' err)" -eq 0 ]
 exits 1 test s --golden g --progress json --json -; err_has 'broken   in/wrong'; err_lacks 'monge accept'
-exits 1 test s --golden g --progress always -q; exits 0 accept --golden g
+exits 1 test s --golden g --progress always -q; exits 1 accept --golden g; err_has 'in/wrong is left as it is: it is broken'
 exits 1 test s --golden g --changed --progress json; ok 'what is not rendered' grep -q '"rendered": 0, "unchanged": 4, "failed": 1, "part": 1.0000' err
 exits 1 test s --golden g; no_err
 for samples in 4 16 64 256 1024; do
@@ -641,7 +704,12 @@ if have git; then
     exits 1 test --golden goldens -q; exits 0 accept --golden goldens
     commit 1 'the golden is not in the index'
     git add goldens; commit 0 'a scene with its golden'
-    echo '# comment' >>s/two.yaml; git add s; commit 0 'a scene that stays as it looks'
+    echo '# comment' >>s/two.yaml; git add s; commit 0 'a scene that stays as it looks'; err_lacks pre-commit
+    scene s/one.yaml lime; git add s; commit 1 'as it is in the folder'; err_lacks 'what is staged'
+    scene s/one.yaml blue; commit 1 'a change that is staged alone'; err_has 'pre-commit: this is of what is staged; files in the folder differ from that: `git add` stages them'
+    exits 0 test --golden goldens -q; git add s
+    last='git commit'; MONGE=no/monge git commit --allow-empty -qm x >out 2>err; ok 'no program' [ $? -eq 1 ]
+    ok 'is told in a line' [ "$(cat err)" = 'pre-commit: there is no program no/monge: MONGE=/path/to/monge git commit, or write that path into .git/hooks/pre-commit' ]
     rm -rf .git
 fi
 rm -rf goldens
@@ -685,7 +753,7 @@ for way in 'mkdir' 'mkfifo' 'ln -s /dev/null' 'ln -s nowhere'; do
     for kind in png both; do
         fresh "kind: $kind"; $way g/one.png
         exits 1 test s --golden g; says broken one; out_has 'g/one.png is not a file: it is in the way of the golden'
-        exits 1 test s --golden g --changed; says broken one; exits 1 accept one --golden g; out_has '0 taken'; err_has 'one is left as it is: it is broken'; exits 0 accept --golden g
+        exits 1 test s --golden g --changed; says broken one; exits 1 accept one --golden g; out_has '0 taken'; err_has 'one is left as it is: it is broken'; exits 1 accept --golden g; out_has '2 taken, 1 left as they are'
         ok 'it stays as it is' [ ! -f g/one.png ]; rm -rf g/one.png
         exits 1 test s --golden g; says new one
     done
@@ -701,6 +769,7 @@ done
 mkdir -p run/new run/old
 for folder in run/new run/old/ run; do exits 2 test s --golden $folder --output run; err_has 'would write into the folder of the goldens'; done
 ok 'the goldens are as before' [ "$(sums g)" = "$(cat before)" ]; rm -rf link run
+exits 2 test s --golden g --report ./g; err_has '--report ./g would write into the folder of the goldens, g'; missing g/index.html
 exits 2 test s --golden fresh --output new/../fresh; err_has 'would write into'; missing fresh; missing new
 exits 1 test s --golden fresh --output /fresh/../$work/./away/../fresh.2 -q; rm -rf fresh.2
 # passes that are asked for later
@@ -715,6 +784,24 @@ for kind in png hash both; do
         exits 0 test s --golden g -q
     fi
     scene s/one.yaml red 1.2; exits 1 test s --golden g; says changed one; out_has 'geometry'
+done
+# passes that are damaged, and what is left of a golden whose picture has gone
+for kind in png both; do
+    fresh "kind: $kind" 'rules: [{scenes: one, aov: true}]'; exits 0 test s --golden g --update-only-failed -q; exits 0 test s --golden g; no_err
+    for pass in object.png material.png depth.pfm normal.png shadow.png; do
+        head -c 100 g/one.$pass >x; ok "less than all of $pass" sh -c "! cmp -s x g/one.$pass"; cp x g/one.$pass
+        exits 1 test s --golden g; says missing one; out_has " g/one.$pass: "; out_has '2 same, 1 missing'
+        exits 1 test s --golden g --changed; says missing one
+        exits 0 accept --golden g -q; exits 0 test s --golden g
+    done
+    [ $kind != png ] || { rm g/one.png; exits 1 test s --golden g; says missing one; out_has 'g/one.png is not there, but its passes are'; }
+    exits 0 test s --golden g --update-only-failed -q
+    # without aov nothing is said of them but that they are there
+    echo "kind: $kind" >g/golden.yaml; head -c 300 g/one.depth.pfm >x; cp x g/one.depth.pfm
+    exits 0 test s --golden g; out_has 'the passes of one are not compared: its rule has no `aov: true`'; there g/one.object.png
+    cp g/one.depth.pfm g/two.depth.pfm; exits 0 test s --golden g; out_has 'the passes of one and 1 more goldens are not compared: their rules have no `aov: true`'
+    exits 0 test s --golden g -q; out_lacks passes
+    [ $kind != png ] || { rm g/one.png; exits 1 test s --golden g; says missing one; }
 done
 # what a link in the folder leads to stays as it is
 fresh; mkdir -p away; echo mine >away/victim; cp away/victim away/kept

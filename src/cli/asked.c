@@ -19,6 +19,10 @@ bool asked_changes_pixels(enum option_id option) {
     return false;
 }
 
+bool asked_makes_picture(enum option_id option) {
+    return asked_changes_pixels(option) || option == OPTION_DEFINE || option == OPTION_FRAMES;
+}
+
 /* ---- As a text, the same for the same values ---- */
 
 /* In as few digits as give the same number again. */

@@ -15,6 +15,9 @@ char *asked_text(const struct option_value *option, const struct monge_define *d
 /* Whether the option is one of those that change pixels, but for -D and --frames. */
 bool asked_changes_pixels(enum option_id option);
 
+/* Whether it says what picture is to be made: one of those, or -D or --frames. */
+bool asked_makes_picture(enum option_id option);
+
 /* The settings as the options have them, where they do. */
 void asked_settings(const struct option_value *option, struct monge_settings *settings);
 

@@ -374,9 +374,10 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
             .doc = "make new pictures of the last test the goldens",
             .text = {"Takes the new pictures of the last `monge test` with this folder of goldens, all or "
                      "those whose names "
-                     "match a GLOB. One is left as it is where its scene, what that includes, its options or "
-                     "the program "
-                     "have changed since the run; a golden that did not fail is never touched.",
+                     "match a GLOB. One is left as it is where it is broken, or its scene, what that "
+                     "includes, its "
+                     "options or the program have changed since the run; a golden that did not fail is never "
+                     "touched.",
                      "With --prune, goldens whose scenes were gone in that run are removed. Exit status 1 "
                      "where something "
                      "that was asked for is left as it is."},

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/asked.h"
 #include "cli/say.h"
 #include "cli/suggest.h"
 
@@ -205,18 +206,48 @@ static const char *take_word(struct words *words) {
     return *words->next++;
 }
 
+/* Whether the command has it in golden.yaml, by rules that take options of render. */
+static bool is_of_rules(enum command_id command, enum option_id o) {
+    const bool rendered = command_takes(COMMAND_RENDER, o) && (asked_makes_picture(o) || o == OPTION_AOV);
+    return command == COMMAND_TEST && rendered && !command_takes(command, o);
+}
+
+/* Both as the user wrote them; a value that is missing, NULL, or would need quotes is told as the help has it. */
+static void refer_to_rules(enum option_id o, const char *shown, const char *value) {
+    static const char plain[] = "0123456789.,:=+-_%/"
+                                "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
+    const struct option_row *row = &OPTION_TABLE[o];
+    char *entry;
+    if (!value || !*value || value[strspn(value, plain)]) value = row->value;
+    if (o == OPTION_AOV)
+        entry = say_text("aov: true");
+    else if (row->kind == VALUE_NONE)
+        entry = say_text("options: %s", shown);
+    else
+        entry = say_text("options: \"%s %s\"", shown, value);
+    say_usage(COMMAND_TEST, "no option `%s`; it goes into golden.yaml, `rules: [{scenes: \"*\", %s}]`", shown,
+              entry);
+    free(entry);
+}
+
 /* Reports a long option, `length` bytes of name, that the command does not have. */
-static bool unknown_long(enum command_id command, const char *name, size_t length) {
-    char word[64];
+static bool unknown_long(enum command_id command, const char *name, size_t length, struct words *rest) {
+    char word[64], shown[sizeof word + 2];
     snprintf(word, sizeof word, "%.*s", (int)length, name);
+    snprintf(shown, sizeof shown, "--%s", word);
+    for (enum option_id o = 0; o < OPTIONS; o++) {
+        if (!is_of_rules(command, o) || strcmp(OPTION_TABLE[o].name, word) != 0) continue;
+        refer_to_rules(o, shown, name[length] ? name + length + 1 : take_word(rest));
+        return false;
+    }
     struct suggestion nearest = {.word = word};
     for (enum option_id o = 0; o < OPTIONS; o++)
         if (command_takes(command, o)) suggestion_try(&nearest, OPTION_TABLE[o].name);
     const char *best = suggestion_best(&nearest);
     if (best)
-        say_usage(command, "no option `--%s`; did you mean `--%s`?", word, best);
+        say_usage(command, "no option `%s`; did you mean `--%s`?", shown, best);
     else
-        say_usage(command, "no option `--%s`", word);
+        say_usage(command, "no option `%s`", shown);
     return false;
 }
 
@@ -228,7 +259,7 @@ static bool parse_long(struct arguments *args, const char *word, struct words *r
            !(command_takes(args->command, o) && strncmp(OPTION_TABLE[o].name, word, length) == 0 &&
              !OPTION_TABLE[o].name[length]))
         o++;
-    if (o == OPTIONS) return unknown_long(args->command, word, length);
+    if (o == OPTIONS) return unknown_long(args->command, word, length, rest);
     char shown[64];
     snprintf(shown, sizeof shown, "--%s", OPTION_TABLE[o].name);
     const char *value = word[length] ? word + length + 1 : NULL;
@@ -238,16 +269,25 @@ static bool parse_long(struct arguments *args, const char *word, struct words *r
     return false;
 }
 
+/* The same of a letter; the value is what follows it. */
+static bool unknown_letter(enum command_id command, const char *shown, const char *value) {
+    enum option_id o = 0;
+    while (o < OPTIONS && !(is_of_rules(command, o) && OPTION_TABLE[o].letter == shown[1])) o++;
+    if (o < OPTIONS)
+        refer_to_rules(o, shown, value);
+    else
+        say_usage(command, "no option `%s`", shown);
+    return false;
+}
+
 /* -q, -o VALUE, -oVALUE, or several together; `letters` begins after the dash. */
 static bool parse_letters(struct arguments *args, const char *letters, struct words *rest) {
     for (; *letters; letters++) {
         enum option_id o = 0;
         while (o < OPTIONS && !(command_takes(args->command, o) && OPTION_TABLE[o].letter == *letters)) o++;
         const char shown[3] = {'-', *letters, '\0'};
-        if (o == OPTIONS) {
-            say_usage(args->command, "no option `%s`", shown);
-            return false;
-        }
+        if (o == OPTIONS)
+            return unknown_letter(args->command, shown, letters[1] ? letters + 1 : take_word(rest));
         if (OPTION_TABLE[o].kind != VALUE_NONE)
             return set_value(args, o, shown, letters[1] ? letters + 1 : take_word(rest));
         args->option[o].given = true;

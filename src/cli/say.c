@@ -11,8 +11,11 @@
 
 static _Thread_local FILE *diverted;
 
+static _Thread_local const char *place; /* NULL: none */
+
 FILE *say_stream(void) { return diverted ? diverted : stderr; }
 void say_divert(FILE *stream) { diverted = stream; }
+void say_of(const char *what) { place = what; }
 
 void say_no_memory(void) {
     fputs("monge: out of memory\n", stderr);
@@ -25,26 +28,33 @@ char *say_text_list(const char *format, va_list args) {
     return text;
 }
 
-static void print_line(FILE *out, const char *prefix, const char *format, va_list args) {
+static void print_line(FILE *out, const char *format, va_list args) {
     char *text = say_text_list(format, args);
     for (char *c = text; *c; c++)
         if ((unsigned char)*c < 0x20 || *c == 0x7f) *c = '?';
-    fprintf(out, "%s%s\n", prefix, text);
+    fprintf(out, "%s\n", text);
+    free(text);
+}
+
+static void print_error(const char *format, va_list args) {
+    char *text = say_text_list(format, args);
+    say_line(say_stream(), "monge: %s%s%s", place ? place : "", place ? ": " : "", text);
     free(text);
 }
 
 void say_error(const char *format, ...) {
     va_list args;
     va_start(args, format);
-    print_line(say_stream(), "monge: ", format, args);
+    print_error(format, args);
     va_end(args);
 }
 
 void say_usage(enum command_id command, const char *format, ...) {
     va_list args;
     va_start(args, format);
-    print_line(say_stream(), "monge: ", format, args);
+    print_error(format, args);
     va_end(args);
+    if (place) return;
     if (command == COMMAND_NONE)
         fputs("see `monge help`\n", say_stream());
     else
@@ -54,14 +64,14 @@ void say_usage(enum command_id command, const char *format, ...) {
 void say_note(const char *format, ...) {
     va_list args;
     va_start(args, format);
-    print_line(say_stream(), "", format, args);
+    print_line(say_stream(), format, args);
     va_end(args);
 }
 
 void say_line(FILE *out, const char *format, ...) {
     va_list args;
     va_start(args, format);
-    print_line(out, "", format, args);
+    print_line(out, format, args);
     va_end(args);
 }
 

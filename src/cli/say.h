@@ -17,6 +17,10 @@ void say_error(const char *format, ...) __attribute__((format(printf, 1, 2)));
 /* The same, and then where to read about the command. */
 void say_usage(enum command_id command, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
+/* What this thread's errors are of, "goldens/golden.yaml:3", which they begin with from now on, and say nothing of where to
+ * read more; NULL: no longer. */
+void say_of(const char *place);
+
 /* A line there, like say_error's but without "monge: ". */
 void say_note(const char *format, ...) __attribute__((format(printf, 1, 2)));
 

@@ -42,6 +42,12 @@ static void report_trouble(struct search *search, const char *path, const char *
     fail_operand(search);
 }
 
+/* errno says why. */
+static void fail_reading(struct search *search, const char *path) {
+    report_failure(search->report, "cannot-read", "cannot read %s: %s", path, strerror(errno));
+    fail_operand(search);
+}
+
 /* ---- Scenes ---- */
 
 /* The name is the path from `name` on, without its extension. */
@@ -103,8 +109,7 @@ static void walk_entry(struct search *search, const char *path, size_t below) {
 static void walk(struct search *search, const char *folder, size_t below) {
     char **names = folder_names(folder);
     if (!names) {
-        report_failure(search->report, "cannot-read", "cannot read %s: %s", folder, strerror(errno));
-        fail_operand(search);
+        fail_reading(search, folder);
     }
     for (char **name = names; name && *name; name++) {
         char *path = say_text("%s%s%s", folder, strcmp(folder, "/") == 0 ? "" : "/", *name);
@@ -312,7 +317,10 @@ static void forget_name(struct scene_file *scene) {
 
 static void name_from(struct search *search, const char *root, struct scene_file *scene) {
     char *name = scene_name_below(root, scene->path, scene->name);
-    if (!name) report_trouble(search, scene->path, "it is not below the folder of --root");
+    if (!name && is_there(scene->path))
+        report_trouble(search, scene->path, "it is not below the folder of --root");
+    else if (!name)
+        fail_reading(search, scene->path);
     free(scene->name);
     scene->name = name;
 }

@@ -91,6 +91,7 @@ static void mistakes(void **state) {
     (void)state;
     static const char *const rows[][3] = {
         {"kidn: png\n", "unknown-key", "did you mean `kind`?"},
+        {"kidn: png\n", "unknown-key", "the file golden.yaml has no key `kidn`"},
         {"kind: jpg\n", "not-a-choice", "png, hash or both"},
         {"rules: [{options: --samples 1}]\n", "missing-key", "a rule needs the key `scenes`"},
         {"rules: [{scenes: {a: 1}}]\n", "not-a-text",
@@ -102,7 +103,7 @@ static void mistakes(void **state) {
         {"rules: [{scenes: a, tolerance: {pixels: 0.5, reason: r}}]\n", "not-a-number", "found `0.5`"},
         {"rules: [{scenes: a, tolerance: {pixels: 101%, reason: r}}]\n", "not-a-number", "found `101%`"},
         {"rules: [{scenes: a, tolerance: {pixels: -1, reason: r}}]\n", "not-a-number", "found `-1`"},
-        {"- a\n", "not-a-mapping", "the settings of goldens"},
+        {"- a\n", "not-a-mapping", "the file golden.yaml"},
         {"rules: [\n", "not-yaml", "a value is missing"},
         {"", "", ""},
     };

@@ -13,6 +13,7 @@
 #include "cli/interrupt.h"
 #include "cli/paths.h"
 #include "cli/say.h"
+#include "cli/scene_path.h"
 
 /* The last run, and what is taken of it. */
 struct acceptance {
@@ -36,6 +37,16 @@ static bool is_wanted(const struct acceptance *a, const char *name) {
     return a->args->count == 0;
 }
 
+/* The golden of a scene that is given by its path: called as that ends, without its extension. NULL: none. */
+static const struct golden_case *find_meant(const struct acceptance *a, const char *path) {
+    char *name = scene_name(path);
+    const struct golden_case *found = golden_results_find(&a->results, name);
+    for (char *slash = strchr(name, '/'); slash && !found; slash = strchr(slash + 1, '/'))
+        found = golden_results_find(&a->results, slash + 1);
+    free(name);
+    return found;
+}
+
 /* Each glob must have something to say of the run. */
 static bool check_globs(const struct acceptance *a) {
     for (size_t i = 0; i < a->args->count; i++) {
@@ -43,7 +54,9 @@ static bool check_globs(const struct acceptance *a) {
         for (size_t k = 0; k < a->results.count; k++)
             matches += fnmatch(a->args->operands[i], a->results.cases[k].name, 0) == 0;
         if (matches > 0) continue;
-        say_error("%s: no golden of the last run is called so", a->args->operands[i]);
+        const struct golden_case *meant = find_meant(a, a->args->operands[i]);
+        say_error("%s: no golden of the last run is called so%s%s%s", a->args->operands[i],
+                  meant ? "; did you mean `" : "", meant ? meant->name : "", meant ? "`?" : "");
         return false;
     }
     return true;
@@ -179,7 +192,7 @@ static void remove_orphan(struct acceptance *a, struct golden_case *c) {
 static void settle_case(struct acceptance *a, struct golden_case *c) {
     if (!is_wanted(a, c->name)) return;
     if (c->status == GOLDEN_ORPHAN && a->args->option[OPTION_PRUNE].given) remove_orphan(a, c);
-    if (c->status == GOLDEN_BROKEN && a->args->count > 0) refuse(a, c, "it is broken");
+    if (c->status == GOLDEN_BROKEN) refuse(a, c, "it is broken");
     if (golden_can_take(c) && c->scene && c->scene_name && c->rule_options) take_case(a, c);
 }
 
@@ -256,7 +269,7 @@ static bool begin(struct acceptance *a) {
     a->folder = option[OPTION_GOLDEN].text;
     a->output = option[OPTION_TEST_OUTPUT].given ? option[OPTION_TEST_OUTPUT].text : "monge-test";
     golden_hold(a->folder);
-    return limits_read(a->args, &a->loader.limits) &&
+    return golden_check_folder(a->folder) && limits_read(a->args, &a->loader.limits) &&
            golden_settings_read(&a->settings, a->folder, NULL, NULL, &a->loader) &&
            golden_lock_read(&a->lock, a->folder) && read_run(a) && name_scenes(a) && check_globs(a);
 }

@@ -14,10 +14,9 @@
 #include "cli/words.h"
 
 void golden_add_message(struct golden_case *c, const char *format, ...) {
-    char *line = NULL;
     va_list args;
     va_start(args, format);
-    if (vasprintf(&line, format, args) < 0) exit(STATUS_TROUBLE);
+    char *line = say_text_list(format, args);
     va_end(args);
     char *before = c->message;
     c->message = before ? say_text("%s\n%s", before, line) : say_text("%s", line);
@@ -85,10 +84,7 @@ static struct golden_case *add_case(const struct subject *s) {
     const bool frames = scene->rule->args.option[OPTION_FRAMES].given && s->frame;
     const struct pattern_values values = {scene->name, s->defines, sweep->count, frames, s->frame, s->digits};
     scene->cases = realloc(scene->cases, (scene->count + 1) * sizeof *scene->cases);
-    if (!scene->cases) {
-        say_error("out of memory");
-        exit(STATUS_TROUBLE);
-    }
+    if (!scene->cases) say_no_memory();
     struct golden_case *c = &scene->cases[scene->count++];
     *c = (struct golden_case){.name = pattern_usual(sweep, &values),
                               .scene = say_text("%s", scene->path),
@@ -255,10 +251,7 @@ static void run_combination(struct subject *s) {
 void golden_scene_run(struct golden_run *run, struct golden_scene *scene) {
     const struct sweep *sweep = &scene->rule->loader.sweep;
     struct monge_define *defines = calloc(sweep->count + 1, sizeof *defines);
-    if (!defines) {
-        say_error("out of memory");
-        exit(STATUS_TROUBLE);
-    }
+    if (!defines) say_no_memory();
     progress_unit_begin(&scene->progress, &run->progress);
     progress_pictures(&scene->progress, sweep->total);
     for (size_t i = 0; i < sweep->total && !interrupt_pending(); i++) {

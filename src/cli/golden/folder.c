@@ -37,6 +37,17 @@ bool golden_check_file(const char *path) {
     return false;
 }
 
+bool golden_check_folder(const char *folder) {
+    if (path_is_folder(folder) || !golden_is_there(folder)) return true;
+    const char *slash = strrchr(folder, '/'), *file = slash ? slash + 1 : folder;
+    const int length = slash ? (int)(slash - folder) : 1;
+    if (strcmp(file, "golden.yaml") == 0 || strcmp(file, "golden.lock") == 0)
+        say_error("--golden %s: it takes the folder, %.*s", folder, length, slash ? folder : ".");
+    else
+        say_error("--golden %s: it takes a folder", folder);
+    return false;
+}
+
 void golden_hold(const char *folder) {
     const int fd = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC); /* stays open */
     while (fd >= 0 && flock(fd, LOCK_EX) != 0 && errno == EINTR) continue;
@@ -113,6 +124,13 @@ bool golden_remove(const char *folder, const char *path) {
     }
     free(copy);
     return true;
+}
+
+bool golden_has_passes(const char *picture) {
+    char *depth = aov_path(MONGE_LAYER_DEPTH, picture);
+    const bool there = path_is_file(depth);
+    free(depth);
+    return there;
 }
 
 bool golden_remove_picture(const char *folder, const char *path) {

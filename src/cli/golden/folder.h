@@ -12,6 +12,9 @@ bool golden_is_there(const char *path); /* whatever it is: a folder, a link that
 /* The same as path_is_file of what is there: a pipe or a device would be read without end. False: told. */
 bool golden_check_file(const char *path);
 
+/* What --golden is given must be a folder, as soon as it is there. False: told. */
+bool golden_check_folder(const char *folder);
+
 /* Waits until no other process holds the folder, up to the end of this one: of two that read, change and write its lock the
  * later would undo what the earlier has done. Where there is no such folder, or no such thing as a lock, it goes on. */
 void golden_hold(const char *folder);
@@ -30,7 +33,10 @@ bool golden_check_inside(const char *folder, const char *path);
  * write into them. False, with the reason told; one that is not there is no trouble. */
 bool golden_remove(const char *folder, const char *path);
 
-/* The same of a picture and of the layers beside it. */
+/* Whether the picture, there or not, has passes beside it: by its depth, as that is no picture and so no golden of its own. */
+bool golden_has_passes(const char *picture);
+
+/* The same as golden_remove of a picture and of the layers beside it. */
 bool golden_remove_picture(const char *folder, const char *path);
 
 /* Removes what a run has left of a case in its folder: the new picture and the old one, with their passes. */

@@ -74,9 +74,12 @@ char *golden_tolerance_text(const struct monge_tolerance *t) {
     return text;
 }
 
-char *golden_difference_text(const struct monge_difference *d) {
+char *golden_difference_text(const struct golden_case *c) {
+    const struct monge_difference *d = &c->difference;
     switch (d->unlike) {
-    case MONGE_UNLIKE_SIZE: return say_text("another size");
+    case MONGE_UNLIKE_SIZE:
+        return say_text("another size: %ux%u, the golden %ux%u", c->now.width, c->now.height, c->old.width,
+                        c->old.height);
     case MONGE_UNLIKE_COLOR_SPACE: return say_text("another colour space");
     case MONGE_UNLIKE_BITS:
     case MONGE_UNLIKE_NOTHING: break;

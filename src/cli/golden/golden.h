@@ -68,7 +68,7 @@ struct monge_causes golden_causes(const struct golden_case *c);
 char *golden_tolerance_text(const struct monge_tolerance *tolerance);
 
 /* "1204 of 24576 pixels, by up to 0.31, flip 0.021"; of a case that is compared. To be freed. */
-char *golden_difference_text(const struct monge_difference *difference);
+char *golden_difference_text(const struct golden_case *c);
 
 /* "the scene's text differs; the options and the program are the same"; NULL: nothing is known of the golden. To
  * be freed. */

@@ -25,25 +25,34 @@ static void print_escaped(FILE *out, const char *text, bool blanks) {
             putc(*c, out);
 }
 
+/* As the first character of a line it would be that of a comment, or of a conflict of a merge. */
+static bool begins_no_name(char c) { return c && strchr("#<=>|", c); }
+
+static void print_name(FILE *out, const char *name) {
+    if (begins_no_name(*name)) fprintf(out, "%%%02X", (unsigned char)*name++);
+    print_escaped(out, name, true);
+}
+
 static int digit_of(char c) {
     static const char digits[] = "0123456789ABCDEF";
     const char *at = c ? strchr(digits, c) : NULL;
     return at ? (int)(at - digits) : -1;
 }
 
-/* In place. False: it is not as print_escaped writes it. */
-static bool unescape(char *text, bool blanks) {
+/* In place. False: it is not as print_name writes it, or print_escaped. */
+static bool unescape(char *text, bool is_name) {
     char *to = text;
     for (const char *c = text; *c; c++) {
         if (*c != '%') {
-            if (is_escaped((unsigned char)*c, blanks)) return false;
+            if (is_escaped((unsigned char)*c, is_name)) return false;
             *to++ = *c;
             continue;
         }
         const int high = digit_of(c[1]), low = high < 0 ? -1 : digit_of(c[2]);
-        if (low < 0 || !is_escaped((unsigned char)(16 * high + low), blanks) || 16 * high + low == 0)
-            return false;
-        *to++ = (char)(16 * high + low);
+        const char meant = low < 0 ? '\0' : (char)(16 * high + low);
+        const bool first = is_name && to == text && begins_no_name(meant);
+        if (!meant || !(first || is_escaped((unsigned char)meant, is_name))) return false;
+        *to++ = meant;
         c += 2;
     }
     *to = '\0';
@@ -116,7 +125,7 @@ static void print_hash(FILE *out, const char *key, const char *hash) {
 }
 
 static void print_line(FILE *out, const char *name, const struct golden_stamp *s) {
-    print_escaped(out, name, true);
+    print_name(out, name);
     fprintf(out, " %ux%ux%u", s->width, s->height, s->bits);
     print_hash(out, "pixels", s->pixels);
     print_hash(out, "scene", s->scene);

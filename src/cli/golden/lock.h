@@ -4,9 +4,9 @@
  *     # Goldens of monge test.
  *     gallery/chess 640x480x8 pixels=27f0... scene=... text=... program=... options=--samples 4
  *
- * A name has no blanks: those, control characters and % are written as %20 and the like; in options, which go to
- * the end of the line, control characters and %. Goldens with passes have depth=, normal= and shadow= as well. What
- * is not known of a golden is left out, as are options that are not. */
+ * A name has no blanks: those, control characters and % are written as %20 and the like, and one of # < = > | where it
+ * is the first; in options, which go to the end of the line, control characters and %. Goldens with passes have depth=,
+ * normal= and shadow= as well. What is not known of a golden is left out, as are options that are not. */
 #ifndef MONGE_CLI_GOLDEN_LOCK_H
 #define MONGE_CLI_GOLDEN_LOCK_H
 

@@ -61,7 +61,9 @@ bool golden_render_old(const struct golden_run *run, struct golden_case *c) {
     if (!made)
         golden_add_message(c, "%s makes no picture of it", run->old_program);
     else if (!same)
-        golden_add_message(c, "%s makes another picture of it than the golden, as the scene is now",
+        golden_add_message(c,
+                           "%s does not make the golden's picture of it: the scene has changed, or that is "
+                           "not the program of then",
                            run->old_program);
     if (same)
         c->golden_path = path;

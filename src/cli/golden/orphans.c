@@ -201,9 +201,12 @@ static bool knows_goldens(const struct golden_run *run) {
     return known;
 }
 
+bool golden_looks_for_orphans(const struct golden_run *run, const struct golden_results *results) {
+    return results->places.root || (results->places.count > 0 && knows_goldens(run));
+}
+
 void golden_find_orphans(const struct golden_run *run, struct golden_results *results) {
     struct search search = {.run = run, .results = results};
-    if (!results->places.root && (results->places.count == 0 || !knows_goldens(run))) return;
     begin(&search);
     add_lines(&search);
     add_pictures(&search);

@@ -29,8 +29,7 @@ static bool split_words(struct golden_rule *rule, int *count) {
 /* Only what changes pixels: the rest is for the test to decide. */
 static bool check_options(const struct arguments *args) {
     for (enum option_id o = 0; o < OPTIONS; o++) {
-        if (!args->option[o].given || asked_changes_pixels(o) || o == OPTION_DEFINE || o == OPTION_FRAMES)
-            continue;
+        if (!args->option[o].given || asked_makes_picture(o)) continue;
         say_error("--%s does not change pixels", OPTION_TABLE[o].name);
         return false;
     }
@@ -47,14 +46,23 @@ static bool read_options(struct golden_settings *settings, struct golden_rule *r
     int count = 0;
     rule->loader =
         (struct loader){.limits = loader->limits, .untrusted = loader->untrusted, .report = loader->report};
-    if (split_words(rule, &count) && options_parse(COMMAND_RENDER, count, rule->words, &rule->args) &&
-        check_options(&rule->args) && sweep_read(&rule->args, &rule->loader.sweep))
-        return true;
-    say_error("%s:%u: so are the `options` of this rule", settings->path, rule->rule->line);
-    return false;
+    char *place = say_text("%s:%u: options", settings->path, rule->rule->line);
+    say_of(place);
+    const bool good = split_words(rule, &count) &&
+                      options_parse(COMMAND_RENDER, count, rule->words, &rule->args) &&
+                      check_options(&rule->args) && sweep_read(&rule->args, &rule->loader.sweep);
+    say_of(NULL);
+    free(place);
+    return good;
 }
 
 /* ---- The file ---- */
+
+static void warn_of_other_name(const char *folder) {
+    char *other = path_below(folder, "golden.yml", "");
+    if (path_is_file(other)) say_error("warning: %s is not read: it must be called golden.yaml", other);
+    free(other);
+}
 
 static bool read_file(struct golden_settings *settings, const struct loader *loader) {
     if (access(settings->path, F_OK) != 0 && errno == ENOENT) return true;
@@ -87,6 +95,7 @@ bool golden_settings_read(struct golden_settings *settings, const char *folder,
                           const enum monge_golden_kind *kind, const struct option_value *root,
                           const struct loader *loader) {
     *settings = (struct golden_settings){.path = path_below(folder, "golden.yaml", "")};
+    warn_of_other_name(folder);
     if (!read_file(settings, loader) || !find_root(settings, folder, root)) return false;
     const struct monge_goldens *file = settings->file;
     settings->other = (struct monge_golden_rule){.options = "", .kind = file ? file->kind : MONGE_GOLDEN_PNG};

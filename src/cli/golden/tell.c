@@ -10,7 +10,7 @@
 static char *same_detail(const struct golden_case *c) {
     if (c->unchanged) return say_text("unchanged");
     if (!c->within) return NULL;
-    char *difference = golden_difference_text(&c->difference);
+    char *difference = golden_difference_text(c);
     char *text = say_text("within its tolerance (%s): %s", c->tolerance.reason, difference);
     free(difference);
     return text;
@@ -20,7 +20,7 @@ char *golden_detail(const struct golden_case *c) {
     switch (c->status) {
     case GOLDEN_SAME: return same_detail(c);
     case GOLDEN_CHANGED:
-        if (c->compared) return golden_difference_text(&c->difference);
+        if (c->compared) return golden_difference_text(c);
         if (c->now.width != c->old.width || c->now.height != c->old.height || c->now.bits != c->old.bits)
             return say_text("%ux%u of %u bits, the golden %ux%u of %u", c->now.width, c->now.height,
                             c->now.bits, c->old.width, c->old.height, c->old.bits);

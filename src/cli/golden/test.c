@@ -11,6 +11,7 @@
 #include "cli/golden/files.h"
 #include "cli/golden/folder.h"
 #include "cli/golden/orphans.h"
+#include "cli/golden/rules.h"
 #include "cli/golden/run.h"
 #include "cli/golden/take.h"
 #include "cli/golden/tell.h"
@@ -45,7 +46,12 @@ static char *root_from_here(const char *root) {
 /* Without operands, all that is below the root. */
 static bool find_scenes(struct test *test) {
     struct golden_run *run = &test->run;
-    if (test->args.count == 0 && !run->settings.root) {
+    const bool nowhere = test->args.count == 0 && !run->settings.root;
+    if (nowhere && !golden_is_there(run->folder)) {
+        say_error("--golden %s: there is no such folder", run->folder);
+        return false;
+    }
+    if (nowhere) {
         say_usage(COMMAND_TEST, "test: no scene given; --root, or `root` in %s, would tell where they are",
                   run->settings.path);
         return false;
@@ -118,7 +124,10 @@ static bool name_scenes(struct golden_run *run) {
                 .path = found->all[i].path, .name = name, .rule = golden_settings_find(&run->settings, name)};
             continue;
         }
-        say_error("%s: it is not below `root`, %s", found->all[i].path, run->settings.root);
+        if (access(found->all[i].path, F_OK) != 0)
+            say_error("cannot read %s: %s", found->all[i].path, strerror(errno));
+        else
+            say_error("%s: it is not below `root`, %s", found->all[i].path, run->settings.root);
         run->loader.scenes.status = STATUS_TROUBLE;
     }
     return run->scenes && check_scenes(run);
@@ -147,17 +156,6 @@ static void find_places(struct test *test) {
     for (size_t i = 0; i < test->args.count && !root; i++) golden_places_add(places, test->args.operands[i]);
 }
 
-static void warn_of_tolerances(const struct golden_run *run) {
-    for (size_t i = 0; i < run->settings.count; i++) {
-        const struct monge_golden_rule *rule = run->settings.rules[i].rule;
-        if (rule->tolerance && !golden_knows_tolerance(run, rule->kind))
-            say_error("warning: %s:%u: the tolerance of this rule counts for nothing: goldens that are "
-                      "hashes have no "
-                      "pixels to compare, which `kind: png` keeps",
-                      run->settings.path, rule->line);
-    }
-}
-
 /* ---- The folder of the run ---- */
 
 /* What the run before has left. */
@@ -178,21 +176,25 @@ static bool make_folder(const char *path) {
     return good;
 }
 
-/* The run writes into its folder, and removes what is in its new/ and old/: goldens must not be there. */
-static bool check_folders(const struct golden_run *run) {
-    static const char *const parts[] = {"", "new", "old"};
+/* Whether what an option has given, or a part of it, is another folder than that of the goldens. */
+static bool keeps_out(const struct golden_run *run, const char *option, const char *given, const char *part) {
+    char *path = path_below(given, part, ""), *real = golden_real_path(path);
     char *goldens = golden_real_path(run->folder);
-    bool good = true;
-    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
-        char *path = path_below(run->output, parts[i], ""), *real = golden_real_path(path);
-        good &= strcmp(real, goldens) != 0;
-        free(real);
-        free(path);
-    }
+    const bool good = strcmp(real, goldens) != 0;
     if (!good)
-        say_error("--output %s would write into the folder of the goldens, %s", run->output, run->folder);
+        say_error("--%s %s would write into the folder of the goldens, %s", option, given, run->folder);
     free(goldens);
+    free(real);
+    free(path);
     return good;
+}
+
+/* The run writes into its folder, and removes what is in its new/ and old/: goldens must not be there. */
+static bool check_folders(const struct test *test) {
+    const struct golden_run *run = &test->run;
+    const char *report = test->args.option[OPTION_REPORT].text;
+    return keeps_out(run, "output", run->output, "") && keeps_out(run, "output", run->output, "new") &&
+           keeps_out(run, "output", run->output, "old") && (!report || keeps_out(run, "report", report, ""));
 }
 
 static bool prepare_folder(struct golden_run *run) {
@@ -298,7 +300,8 @@ static enum status judge(const struct test *test) {
     return worst;
 }
 
-/* Pictures of goldens that have become hashes are no orphans: they may be there for something else. */
+/* Files of goldens that do not count any more are no orphans: they may be there for something else. First pictures of those
+ * that have become hashes. */
 static void mention_pictures(const struct test *test) {
     char *first = NULL;
     size_t count = 0;
@@ -316,6 +319,24 @@ static void mention_pictures(const struct test *test) {
         say_line(test->teller.out, "%s and %zu more pictures are not compared: their goldens are hashes",
                  first, count - 1);
     free(first);
+}
+
+static void mention_passes(const struct test *test) {
+    const char *first = NULL;
+    size_t count = 0;
+    for (size_t i = 0; i < test->results.count; i++) {
+        const struct golden_case *c = &test->results.cases[i];
+        char *path = path_below(test->run.folder, c->name, ".png");
+        if (c->kind != MONGE_GOLDEN_HASH && !c->aov && c->scene && golden_has_passes(path) && count++ == 0)
+            first = c->name;
+        free(path);
+    }
+    if (count == 1)
+        say_line(test->teller.out, "the passes of %s are not compared: its rule has no `aov: true`", first);
+    if (count > 1)
+        say_line(test->teller.out,
+                 "the passes of %s and %zu more goldens are not compared: their rules have no `aov: true`",
+                 first, count - 1);
 }
 
 static void mention_elsewhere(const struct test *test) {
@@ -367,21 +388,30 @@ static enum status run_test(struct test *test) {
     const bool all = test->results.interrupted == 0;
     const size_t first_orphan = test->results.count;
     if (all) find_places(test);
-    if (all) golden_find_orphans(run, &test->results);
+    const bool whole = all && golden_looks_for_orphans(run, &test->results);
+    if (whole) golden_find_orphans(run, &test->results);
     for (size_t i = first_orphan; i < test->results.count; i++)
         golden_tell(&test->teller, &test->results.cases[i]);
     test->results.seconds = clock_seconds() - test->begun;
     golden_tell_end(&test->teller, &test->results);
+    if (whole && test->results.elsewhere == 0) golden_warn_of_unused(run);
     if (!check_names(test->results.cases, first_orphan)) return STATUS_TROUBLE;
     bool good = !all || !wants(test, OPTION_UPDATE_ONLY_FAILED) || take_new(test);
     good &= golden_files_write(&test->results, run->output, test->args.option);
     if (!test->teller.tap && !test->teller.quiet) {
         mention_pictures(test);
+        mention_passes(test);
         mention_elsewhere(test);
         hint(test);
     }
     tell_interrupted(test);
     return good ? judge(test) : STATUS_TROUBLE;
+}
+
+static void mention_folder(const struct test *test) {
+    if (golden_is_there(test->run.folder) || test->teller.quiet) return;
+    say_note("there is no folder %s yet: %s makes it", test->run.folder,
+             wants(test, OPTION_UPDATE_ONLY_FAILED) ? "this run" : "`monge accept`");
 }
 
 static bool is_standard(const struct option_value *option) {
@@ -416,13 +446,16 @@ static bool begin(struct test *test, const struct arguments *args) {
                                .colors = isatty(fileno(out)) && !getenv("NO_COLOR")};
     test->results.folder = say_text("%s", run->folder);
     const enum monge_golden_kind kind = (enum monge_golden_kind)option[OPTION_GOLDEN_KIND].choice;
-    if (!loader_begin(&run->loader, args) ||
+    if (!golden_check_folder(run->folder) || !loader_begin(&run->loader, args) ||
         !golden_settings_read(&run->settings, run->folder, option[OPTION_GOLDEN_KIND].given ? &kind : NULL,
                               &option[OPTION_ROOT], &run->loader))
         return false;
-    warn_of_tolerances(run);
-    return check_folders(run) && find_scenes(test) && name_scenes(run) &&
-           golden_lock_read(&run->lock, run->folder) && prepare_folder(run);
+    golden_warn_of_tolerances(run);
+    if (!check_folders(test) || !find_scenes(test) || !name_scenes(run) ||
+        !golden_lock_read(&run->lock, run->folder) || !prepare_folder(run))
+        return false;
+    mention_folder(test);
+    return true;
 }
 
 static void end(struct test *test) {
