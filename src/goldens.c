@@ -27,9 +27,17 @@ static bool read_pixels(struct diagnostics *diag, const struct object_value *obj
     out->percent = *at == '%';
     const bool whole = out->pixels == floor(out->pixels), all = out->pixels <= 100.0;
     if (number && !at[out->percent] && (out->percent ? all : whole)) return true;
-    struct diagnostic *d = diag_error(diag, object_span(object, KEY_TOLERANCE_PIXELS), "not-a-number",
-                                      "`pixels`: expected a number of pixels, found `%.40s`", text);
-    diag_help(diag, d, "a part of all is written with %%, as 0.1%%");
+    const struct span span = object_span(object, KEY_TOLERANCE_PIXELS);
+    if (number && out->percent && !at[1]) {
+        diag_error(diag, span, "out-of-range", "`pixels`: must be 100%% or less, found `%.40s`", text);
+        return false;
+    }
+    struct diagnostic *d =
+        diag_error(diag, span, "not-a-number", "`pixels`: expected a number of pixels, found `%.40s`", text);
+    if (number && strcmp(at, " %") == 0)
+        diag_help(diag, d, "did you mean %g%%?", out->pixels);
+    else
+        diag_help(diag, d, "a part of all is written with %%, as 0.1%%");
     return false;
 }
 

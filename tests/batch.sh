@@ -51,6 +51,16 @@ for command in check render; do # an empty list of another program is none of ou
 done
 "$monge" render @- -q -o nothing/ </dev/null 2>err; no_err; missing nothing
 exits 0 render @- s/a.yaml "${small[@]}" -o nothing/; there nothing/a.png
+mkdir solo; cp s/a.yaml solo/; echo solo/a.yaml >solo.list
+for several in solo 'solo/*.yaml' @solo.list; do # of one scene today
+    exits 2 render "$several" -o solo.png; err_has "-o solo.png is one file for a folder, a pattern or a list of scenes: end it in / for a folder, or write -o 'solo-{name}.png'"
+    exits 2 render "$several" --frames all -o 'x{frame}.png'; err_has "-o x{frame}.png is one file for a folder, a pattern or a list of scenes: end it in / for a folder, or write -o 'x{frame}-{name}.png'"
+    exits 2 render "$several" -o -; err_has '-o -: standard output can take only one picture'; no_out; missing solo.png
+    exits 0 render "$several" -q "${small[@]}" -o 'solo-{name}.png'; there solo-a.png; rm solo-a.png
+    exits 0 render "$several" -q "${small[@]}" -o solo.d/; there solo.d/a.png; rm -r solo.d
+    exits 0 render "$several" -q "${small[@]}" -o /dev/null
+done
+exits 0 render solo/a.yaml -q "${small[@]}" -o solo.png; there solo.png
 exits 1 check -; err_has 'the file is empty'
 printf '\xEF\xBB\xBF  s/a.yaml \t\r\n  # not this\n \ts/inner/b.yml\n' >marked; cp s/a.yaml 's/#n.yaml'; printf ' #s/json.yaml\ns/#n.yaml\n' >>marked
 exits 0 check @marked; out_is "$(printf 's/%s: ok\n' a.yaml inner/b.yml '#n.yaml')"
@@ -459,6 +469,9 @@ if [ -n "$apart" ]; then
     last='with a read-only folder'
     $apart "mount -t tmpfs -o ro none 4; '$monge' render ?.yaml -j 2 ${small[*]} -o '{name}/x.png'" >out 2>err; status=$?
     ok "a read-only folder" [ $status -eq 2 ]; err_has 'cannot write 4/x.png: Read-only file system'; there 1/x.png 2/x.png 5/x.png
+    last='with a log in a read-only folder'
+    $apart "mount -t tmpfs -o ro none 4; '$monge' render 1.yaml ${small[*]} -o 1/ --log 4/log" >out 2>err; status=$?
+    ok "a log in a read-only folder" [ $status -eq 2 ]; err_has 'error[cannot-write]: cannot write 4/log: Read-only file system'
     rm -f ?/x.png; last='with a full disk'
     $apart "mount -t tmpfs -o size=4k none 2; '$monge' render ?.yaml --size 300x200 -o '{name}/x.png'; status=\$?; ls -A 2 >left.ls; exit \$status" >out 2>err; status=$?
     ok "a full disk" [ $status -eq 2 ]; err_has 'cannot write 2/x.png: No space left'; there 1/x.png 5/x.png; ok "nothing is left there" [ ! -s left.ls ]

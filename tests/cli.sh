@@ -57,7 +57,7 @@ exits 0 --help material; cp out expected; exits 0 help language material; ok "ot
 exits 2 --help rendr; err_has 'did you mean `render`?'
 exits 2 help language rendr; err_has 'did you mean `render`?'
 exits 2 help language render more; err_has 'help: expected one word, found `more` as well'
-exits 0 help; out_has 'usage: monge COMMAND'
+exits 0 help; out_has 'usage: monge COMMAND'; out_has '`monge help --man`'
 exits 2; err_has 'usage: monge COMMAND'; no_out
 for command in render check info test accept fmt explain import schema version help; do
     exits 0 help $command; out_has "usage: monge $command"
@@ -178,12 +178,21 @@ exits 2 check; err_has 'check: no scene given'
 exits 2 fmt; err_has 'fmt: no scene given'
 exits 2 render one.yaml --sample 2; err_has 'no option `--sample`; did you mean `--samples`?'
 exits 2 render one.yaml --thr 2; err_has 'did you mean `--threads`?'
+for side in width height; do exits 2 render one.yaml --$side 3; err_has "no option \`--$side\`; did you mean \`--size WxH\`?"; done
+exits 2 check one.yaml --width 3; err_lacks 'size'
 exits 2 render one.yaml --szie=4x4; err_has 'no option `--szie`; did you mean `--size`?'
 exits 2 check one.yaml --size 4x4; err_has 'no option `--size`'
 exits 2 render one.yaml -x; err_has 'no option `-x`'
 exits 2 --quiet; err_has 'no option `--quiet`'
 exits 2 render one.yaml --quiet=yes; err_has '--quiet takes no value, found `yes`'
 exits 2 render one.yaml --size; err_has '--size: expected WxH like 640x480, each from 1 to 65535, found nothing'
+exits 2 render one.yaml --log -o junk.png; err_has 'monge: --log: expected FILE|-, found the option -o; a file of that name is ./-o'; missing -o junk.png
+exits 2 render one.yaml -o --size 4x4; err_has '-o: expected FILE|DIR/|PATTERN, found the option --size; a file of that name is ./--size'
+exits 2 render one.yaml --stats --size=4x4; err_has 'found the option --size=4x4'
+exits 2 diff a.png b.png --ignore -q; err_has '--ignore: expected X,Y,W,H|MASK, found the option -q'
+for form in '--log -draft' '--log=-o' '--log ./-k'; do exits 0 render "${small[@]}" one.yaml -q -o x.png $form; done
+there ./-draft ./-o ./-k; rm ./-draft ./-o ./-k
+for command in render check info fmt import test; do exits 2 $command ''; err_has "monge: $command: an operand is empty"; no_out; done
 exits 2 render one.yaml -o ''; err_has '-o: expected FILE|DIR/|PATTERN, found ``'
 exits 2 render one.yaml --samples x; err_has '--samples: expected a whole number from 1 to 65536, found `x`'
 for bad in 0 65537 -1 +1 1.5 '' ' 1' 0x10 18446744073709551617; do
@@ -274,6 +283,10 @@ exits 2 render one.yaml --stats link/one.yaml; err_has 'one.yaml would be writte
 ok "the scene is whole" cmp one.yaml a/one.yaml
 
 for name in x.jpg x.JPEG none/y.gif; do exits 2 render one.yaml -o $name; err_has "-o $name: pictures are PNG; did you mean ${name%.*}.png?"; missing $name; done
+for name in picture none/picture none.d/picture .png '{name}' 'x.{name}'; do
+    exits 2 render one.yaml -o "$name"; err_has "-o $name: pictures are PNG; did you mean $name.png?"; missing "$name"
+done
+exits 2 render turn.yaml --frames all -o 'x.%04d'; err_has 'did you mean x.%04d.png?'
 exits 0 render "${small[@]}" -q one.yaml -o x.y; is_png x.y
 exits 0 render "${small[@]}" -q one.yaml -o 'made/{name}/of.{name}.png'; is_png made/one/of.one.png
 exits 2 render one.yaml -o none/x.png; err_has 'error[cannot-write]: cannot write none/x.png: No such file or directory; -o none/ would make the folder'; missing none
@@ -287,6 +300,7 @@ fi
 if [ "$(id -u)" -ne 0 ]; then
     mkdir shut && chmod a-w shut
     exits 2 render one.yaml -o shut/x.png; err_has 'shut/x.png: Permission denied'
+    exits 2 render one.yaml --log shut/log; err_has 'shut/log: Permission denied'
     echo old >kept.png && chmod a-w kept.png
     exits 2 render one.yaml -o kept.png; err_has 'kept.png: Permission denied'
 fi
@@ -375,8 +389,23 @@ for bad in a =3 ''; do exits 2 render params.yaml -D "$bad"; err_has "-D: expect
 exits 2 render params.yaml -D; err_has '-D: expected NAME=VALUE, found nothing'
 for bad in 1a=3 'a b=3' a-b=3; do exits 2 check params.yaml -D "$bad"; err_has "-D $bad: a parameter has letters"; done
 for bad in a=1, a=,1 a=1,,2; do exits 2 check params.yaml -D "$bad"; err_has '-D a: an empty value in'; done
-exits 2 check params.yaml -D a=1..2:0; err_has 'is no range'
-exits 2 check params.yaml -D a=1..9000000; err_has 'is no range'
+exits 1 check params.yaml -D a=tomatoo; err_has '-D a:1:1: error[not-a-number]: `radius`: expected a number, found `tomatoo`'
+cat >given.yaml <<'YAML'
+params: {a: 1, v: [0, 0, 0], tint: white, n: 2}
+image: {samples: n}
+scene:
+  - {sphere: {radius: 1 / a + a, center: v}, material: {diffuse: tint}}
+YAML
+for given in a=abc a=0 'a=[1, 2]' a=-1 v=3 'tint=[1, 2]' n=1.5 n=0; do
+    exits 1 check given.yaml -D "$given"; err_has "-D ${given%%=*}:1:1: note: \`${given%%=*}\` is given here"
+    ok "once, with the value" [ "$(grep -c 'note:' err)" -eq 1 -a "$(grep -cxF "    1 | ${given#*=}" err)" -eq 1 ]
+done
+sed 's/a: 1/a: 0/' given.yaml >within.yaml
+exits 1 check within.yaml -D v=1; err_has 'division by zero'; ok "what is in the file is there to be read" [ "$(grep -c 'given here' err)" -eq 1 ]
+exits 2 check params.yaml -D a=; err_has 'monge: -D a=: the value is empty'
+exits 0 check params.yaml -D 'tint=#fff'
+for step in 0 -1; do exits 2 check params.yaml -D a=1..2:$step; err_has "-D a: the step of \`1..2:$step\` must be over 0; 4..1 goes down"; done
+exits 2 check params.yaml -D a=1..9000000; err_has '-D a: `1..9000000` is no range of at most 1000000 values'
 exits 2 check params.yaml -D a=1..2000 -D b=1..2000; err_has '-D: more than 1000000 combinations'
 exits 2 fmt params.yaml -D a=1; err_has 'no option `-D`'
 
@@ -405,7 +434,7 @@ exits 2 render params.yaml -D a=1,2 -o x.png; err_has "-o x.png is one file for 
 exits 2 render params.yaml -D a=1,2 -D b=1,2 -o 'x{a}.png'
 err_has 'params.yaml with a=1, b=1 and params.yaml with a=1, b=2 would both write'; err_has "write -o 'x{a}-{b}.png'"; missing x1.png
 exits 2 render params.yaml -D a=1,1; err_has 'would both write'
-exits 2 render params.yaml one.yaml -D a=1,2 -o '{a}'; err_has "write -o '{a}-{name}.png'"
+exits 2 render params.yaml one.yaml -D a=1,2 -o '{a}.png'; err_has "write -o '{a}-{name}.png'"
 exits 2 render params.yaml -D a=1,2 -o '{a}{c}.png'; err_has '-o: expected {name}, {a}, found `{c}`'
 exits 2 render params.yaml -D tint=red,gold -o '{tnit}.png'; err_has 'did you mean {tint}?'
 exits 2 render params.yaml -o '{a}.png'; err_has '-D NAME=VALUE makes a {NAME}'

@@ -26,6 +26,7 @@ limit-objects       more primitives than there is memory for: tests/unit/test_sc
 limit-pixels        an option: tests/cli.sh
 no-frame            an option: tests/cli.sh
 no-match            no scene: tests/batch.sh
+nothing-compared    no scene: tests/diff.sh
 odd-key             for monge fmt alone: tests/fmt.sh
 out-of-memory       a system without memory: tests/unit/test_memory.c
 outside-region      an option: tests/cli.sh

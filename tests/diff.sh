@@ -66,6 +66,12 @@ exits 0 diff grey.png dot.png --metric mae --max-delta 0.00067
 exits 1 diff grey.png dot.png --metric mae --max-delta 0.00066
 exits 0 diff grey.png dot.png --metric rmse,psnr --max-delta 0.0116
 exits 1 diff grey.png dot.png --metric psnr --max-delta 0.0115
+exits 1 diff grey.png dot.png --metric mae,rmse,flip --max-delta 0.001
+ok "which of them is beyond" [ "$(grep -c beyond out)" -eq 2 ]; out_has 'mae    0.000666667'; out_lacks 'mae    0.000666667 '
+ok "the rmse is" grep -qx 'rmse   0.0[0-9]*  beyond --max-delta' out; ok "flip is" grep -qx 'flip   0.[0-9]*  beyond --max-delta' out
+exits 1 diff grey.png dot.png --metric mae --max-delta 0.1 --max-pixels 3; out_has '; more than --max-pixels'; out_lacks 'beyond'
+exits 0 diff grey.png dot.png --metric mae --max-delta 0.1 --max-pixels 4; out_lacks 'more than'
+exits 1 diff grey.png dot.png --metric max,flip --max-delta 0.1; out_lacks 'beyond'
 exits 1 diff grey.png dot.png --metric mae --max-delta 0.1 --max-pixels 3
 exits 0 diff grey.png dot.png --metric mae --max-delta 0.1 --max-pixels 4
 exits 1 diff grey.png dot.png --metric flip --max-delta 0.001
@@ -83,13 +89,30 @@ flip --ppd 20; ok "--ppd matters" [ "$flip" != "$first" ]
 
 exits 0 diff grey.png dot.png --ignore 19,14,2,2; out_is 'same: all of 1196 pixels are equal'
 exits 1 diff grey.png dot.png --ignore 19,14,2,1; out_has '2 of 1198 pixels'
-exits 0 diff grey.png dot.png --ignore 0,0,20,30 --ignore=20,0,1000,1000; out_has 'all of 0 pixels'
+exits 0 diff grey.png dot.png --ignore 0,0,20,30 --ignore=20,0,1000,29; out_is 'same: all of 20 pixels are equal'
 render -o white.png -D at=0 -D 'shade=#000000'
 exits 0 diff grey.png dot.png --ignore white.png; out_has 'all of 1196 pixels'
 exits 0 diff grey.png dot.png --mask white.png; out_has 'all of 1196 pixels'
 exits 0 diff grey.png dot.png --mask white.png --ignore 0,0,1,1; out_has 'all of 1195 pixels'
 exits 2 diff grey.png dot.png --mask small.png; err_has 'small.png: it is 20 x 30 pixels'; no_out
 exits 2 diff grey.png dot.png --mask white.png --ignore white.png; err_has 'there can be only one mask'
+
+# of nothing, nothing can be said
+nothing='error[nothing-compared]: nothing is left to compare in grey.png: all pixels are ignored'
+for other in dot.png again.png copy.png; do
+    exits 2 diff grey.png $other --ignore 0,0,20,30 --ignore=20,0,1000,1000; err_has "$nothing"; err_lacks 'a mask'; no_out
+done
+render -o bright.png -D at=200
+exits 2 diff grey.png dot.png --mask bright.png; err_has "$nothing; a mask leaves out what is not black in it"; no_out
+exits 2 diff grey.png dot.png --ignore 0,0,40,30 --out none.png --json; err_has "$nothing"; no_out; missing none.png
+exits 2 diff grey.png dot.png --ignore 0,0,40,30 --max-pixels 0 --max-delta 1; err_has "$nothing"
+exits 1 diff grey.png small.png --ignore 0,0,40,30; out_has 'different: their sizes'
+outside='error[outside-region]: --ignore 40,0,1,1 lies outside of grey.png, which is 40x30'
+exits 2 diff grey.png dot.png --ignore 40,0,1,1; err_has "$outside"; no_out
+exits 2 diff grey.png grey.png --ignore 0,0,1,1 --ignore 40,0,1,1; err_has "$outside"
+exits 2 diff grey.png dot.png --ignore 0,30,1,1; err_has '--ignore 0,30,1,1 lies outside of grey.png'
+exits 0 diff grey.png dot.png --ignore 19,14,2,2 --ignore 39,29,9,9; out_has 'all of 1195 pixels'
+
 exits 2 diff grey.png dot.png --ignore 1,2,3; err_has '--ignore: expected X,Y,W,H'
 exits 2 diff grey.png dot.png --ignore absent.png; err_has 'cannot read absent.png: '
 
@@ -125,6 +148,9 @@ exits 1 diff grey.png dot.png --ignore 19,14,1,2 --out heat.png
 exits 1 diff heat.png even.png --json; out_has '"different": 2'
 exits 1 diff grey.png dot.png --out -; is_png out
 exits 1 diff grey.png small.png --out none.png; err_has 'no heat map'; ok "none.png is not there" [ ! -e none.png ]
+for name in map.jpg map; do
+    exits 2 diff grey.png dot.png --out $name; err_has "--out $name: pictures are PNG; did you mean map.png?"; missing $name; no_out
+done
 exits 2 diff grey.png dot.png --out folder/heat.png; err_has 'cannot write folder/heat.png'
 exits 2 diff grey.png dot.png --out - --json; err_has '--out -: standard output takes the JSON object'
 cp dot.png kept.png
@@ -166,6 +192,8 @@ only in two: y.png
 2 pictures: 1 different, 1 only in two"
 exits 1 diff one two --mask white.png; out_is "only in two: y.png
 2 pictures: 1 same, 1 only in two"
+exits 2 diff one two --ignore 0,0,40,30; out_is "only in two: y.png
+2 pictures: 1 only in two, 1 cannot be used"; err_has 'nothing is left to compare in one/x.png: all pixels are ignored'
 rm two/y.png; exits 0 diff one two --max-pixels 4; out_is '1 picture: 1 within the limits'
 exits 2 diff one two --mask small.png; err_has 'small.png: it is 20 x 30 pixels'; out_is '1 picture: 1 cannot be used'
 
@@ -216,6 +244,8 @@ exits 0 diff grey.png a; out_is 'same: all of 1200 pixels are equal'
 exits 1 diff b/light.png a/; out_has 'different: 1200'
 exits 1 diff a/ b/light.png; out_has 'different: 1200'
 exits 2 diff dot.png a; err_has 'cannot read a/dot.png: No such file'
+exits 2 diff a Bb; ok "what is not there alone" [ "$(cat err)" = 'monge: error[cannot-read]: cannot read Bb: No such file or directory' ]
+exits 2 diff Bb a; ok "on either side" [ "$(cat err)" = 'monge: error[cannot-read]: cannot read Bb: No such file or directory' ]
 exits 2 diff - a; err_has 'standard input has no name to look for in a'
 exits 2 diff a/grey.png b --out b/grey.png; err_has 'would write over a picture'
 
@@ -247,6 +277,7 @@ ok "an endless pipe that is no PNG" [ $status -eq 2 ]; err_has 'cannot use stand
 exits 2 diff grey.png; err_has 'diff: expected two pictures, found 1'; err_has 'see `monge help diff`'
 exits 2 diff grey.png again.png dot.png; err_has 'found 3'
 exits 2 diff; err_has 'diff: no picture given'
+exits 2 diff grey.png ''; err_has 'monge: diff: an operand is empty'
 exits 2 diff - -; err_has 'standard input can be only one picture'
 exits 2 diff grey.png dot.png --metric blip; err_has '--metric: expected some of exact, max, mae, rmse, psnr, ssim and flip, with commas between, found `blip`'
 exits 2 diff grey.png dot.png --metric mae,,max; err_has '--metric: expected'

@@ -204,7 +204,8 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                  "empty one is fine. A file that comes twice under the same name counts once. The "
                  "picture of a scene on standard input goes to standard output unless -o says "
                  "otherwise.",
-                 "-o FILE names the picture of a single scene. For several, -o DIR/ puts the "
+                 "-o FILE names the picture of a single scene, with its extension. For several, and for a "
+                 "folder, a pattern or a list of however many scenes, -o DIR/ puts the "
                  "pictures into a folder, which is made where it is missing, and in a pattern "
                  "{name} stands for NAME; folders of a pattern are made too. A picture is complete "
                  "under its name, or what was there before stays.",
@@ -455,7 +456,8 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                     "is "
                     "sRGB. Any PNG will do. Prints a line about what differs; exit status 0 where they are "
                     "the "
-                    "same, 1 where they are not, 2 where one cannot be read. Files with the same bytes are "
+                    "same, 1 where they are not, 2 where one cannot be read or no pixel is left to compare. "
+                    "Files with the same bytes are "
                     "the "
                     "same "
                     "without being decoded: that the pixels of both are damaged is not told.",
@@ -489,11 +491,12 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                     "per degree; their order matters little). Where it names none of exact and max, "
                     "--max-delta is a limit for what it names instead: mae, rmse, flip, 1 - ssim, the rmse "
                     "of "
-                    "psnr.",
+                    "psnr. What is beyond is marked.",
                     "--ignore leaves out a rectangle, or what is neither black nor transparent in a PNG of "
                     "the "
-                    "same "
-                    "size.",
+                    "same size. A rectangle may reach over the edge, but not lie outside; to leave out all "
+                    "is "
+                    "an error.",
                     "--out writes a heat map: the first picture in dim grey, and what differs in colours "
                     "from "
                     "violet "
@@ -631,6 +634,11 @@ static enum status run(const struct arguments *args) {
     }
     if (args->count == 0 && row->operand) {
         say_usage(args->command, "%s: no %s given", row->name, row->operand);
+        return STATUS_TROUBLE;
+    }
+    for (size_t i = 0; i < args->count; i++) {
+        if (*args->operands[i]) continue;
+        say_usage(args->command, "%s: an operand is empty", row->name);
         return STATUS_TROUBLE;
     }
     return row->run(args);

@@ -1,8 +1,10 @@
 #include "cli/diff.h"
 
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "cli/diff_folders.h"
 #include "cli/paths.h"
@@ -71,7 +73,7 @@ static bool check_heat_map(const struct arguments *args, const char *a, const ch
     else if (!is_stream(out) && (diff_same_file(out, a) || diff_same_file(out, b)))
         say_usage(COMMAND_DIFF, "--out %s would write over a picture that is compared", out);
     else
-        return true;
+        return is_stream(out) || path_check_picture(COMMAND_DIFF, "--out", out);
     return false;
 }
 
@@ -108,10 +110,15 @@ static enum status diff_files(const struct diff *diff, const char *a, const char
 
 /* ---- What the operands are ---- */
 
-/* The operand, or the file in that folder which is called as the other operand. To be freed. NULL: told. */
-static char *find_file(const char *operand, const char *other) {
+/* The operand, or the file in that folder which is called as the other operand. To be freed. NULL: told, of an operand
+ * that is not there this alone. */
+static char *find_file(const struct diff *diff, const char *operand, const char *other) {
     const char *slash = strrchr(other, '/');
     if (!path_is_folder(operand)) return say_text("%s", operand);
+    if (!is_stream(other) && access(other, F_OK) != 0) {
+        report_failure(&diff->report, "cannot-read", "cannot read %s: %s", other, strerror(errno));
+        return NULL;
+    }
     if (!is_stream(other)) return diff_path(operand, slash ? slash + 1 : other);
     say_usage(COMMAND_DIFF, "standard input has no name to look for in %s", operand);
     return NULL;
@@ -121,7 +128,7 @@ static enum status compare(const struct diff *diff, struct monge_diagnostics *di
     char *const *operands = diff->args->operands;
     if (path_is_folder(operands[0]) && path_is_folder(operands[1]))
         return !diff->mask || monge_picture_decode(diff->mask, diag) ? diff_folders(diff) : STATUS_TROUBLE;
-    char *a = find_file(operands[0], operands[1]), *b = find_file(operands[1], operands[0]);
+    char *a = find_file(diff, operands[0], operands[1]), *b = find_file(diff, operands[1], operands[0]);
     const enum status status =
         a && b && check_heat_map(diff->args, a, b) ? diff_files(diff, a, b, diag) : STATUS_TROUBLE;
     free(a);

@@ -5,8 +5,6 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "cli/say.h"
-
 #define METRIC_BIT(metric) (1u << (metric))
 
 const char *const DIFF_VERDICT[] = {"same", "within the limits", "different"};
@@ -42,12 +40,14 @@ static double error_of(const struct monge_difference *d, enum monge_metric metri
     return metric == MONGE_METRIC_SSIM ? 1.0 - d->ssim : measure(d, metric);
 }
 
-/* Each comparison is false of NaN. */
+/* The comparison is false of NaN. */
+static bool mean_passes(const struct diff *diff, const struct monge_difference *d, enum monge_metric metric) {
+    return error_of(d, metric) <= diff->args->option[OPTION_MAX_DELTA].fraction;
+}
+
 static bool means_pass(const struct diff *diff, const struct monge_difference *d) {
     for (enum monge_metric m = 0; m < MONGE_METRICS; m++)
-        if (diff->metrics & METRIC_BIT(m) &&
-            !(error_of(d, m) <= diff->args->option[OPTION_MAX_DELTA].fraction))
-            return false;
+        if (diff->metrics & METRIC_BIT(m) && !mean_passes(diff, d, m)) return false;
     return true;
 }
 
@@ -73,6 +73,26 @@ bool diff_same_file(const char *a, const char *b) {
            of_a.st_ino == of_b.st_ino;
 }
 
+static const char *shown(const char *path) { return strcmp(path, "-") == 0 ? "standard input" : path; }
+
+/* What leaves out nothing, or all, is a slip of the pen: of a mask the wrong way round all pictures would be the same. */
+static bool check_ignored(const struct diff_pair *pair) {
+    const struct report *report = &pair->diff->report;
+    const struct monge_compare *how = &pair->diff->how;
+    const uint32_t width = monge_picture_width(pair->a), height = monge_picture_height(pair->a);
+    for (size_t i = 0; i < how->ignore_count; i++) {
+        const struct monge_region *r = &how->ignore[i];
+        if (r->x < width && r->y < height) continue;
+        report_failure(report, "outside-region", "--ignore %u,%u,%u,%u lies outside of %s, which is %ux%u",
+                       r->x, r->y, r->width, r->height, shown(pair->path_a), width, height);
+        return false;
+    }
+    if (pair->difference.pixels > 0) return true;
+    report_failure(report, "nothing-compared", "nothing is left to compare in %s: all pixels are ignored%s",
+                   shown(pair->path_a), how->mask ? "; a mask leaves out what is not black in it" : "");
+    return false;
+}
+
 bool diff_pair_compare(struct diff_pair *pair, const struct diff *diff, const char *path_a,
                        const char *path_b, struct monge_diagnostics *diag) {
     *pair = (struct diff_pair){.diff = diff, .path_a = path_a, .path_b = path_b};
@@ -81,6 +101,7 @@ bool diff_pair_compare(struct diff_pair *pair, const struct diff *diff, const ch
     const struct monge_difference *d = &pair->difference;
     if (!pair->a || !pair->b || !monge_compare(pair->a, pair->b, &diff->how, &pair->difference, diag))
         return false;
+    if (!isnan(d->max) && !check_ignored(pair)) return false;
     pair->verdict = d->same ? DIFF_SAME : passes(diff, d) ? DIFF_WITHIN : DIFF_DIFFERENT;
     return true;
 }
@@ -110,7 +131,8 @@ static void print_unlike(const struct diff_pair *pair, FILE *out) {
         fprintf(out, "they have %u and %u bits a channel; ", monge_picture_bits(a), monge_picture_bits(b));
 }
 
-static void print_pixels(const struct monge_difference *d, FILE *out) {
+static void print_pixels(const struct diff_pair *pair, FILE *out) {
+    const struct monge_difference *d = &pair->difference;
     if (d->different == 0) {
         fprintf(out, "all of %" PRIu64 " pixels are equal", d->pixels);
         return;
@@ -118,17 +140,22 @@ static void print_pixels(const struct monge_difference *d, FILE *out) {
     fprintf(out, "%" PRIu64 " of %" PRIu64 " pixels (%.3g %%), largest difference %.4g at %u,%u",
             d->different, d->pixels, 100.0 * measure(d, MONGE_METRIC_EXACT), d->max, d->max_x, d->max_y);
     if (d->beyond < d->different) fprintf(out, "; %" PRIu64 " beyond --max-delta", d->beyond);
+    if (pair->diff->args->option[OPTION_MAX_PIXELS].given && !pixels_pass(pair->diff, d))
+        fputs("; more than --max-pixels", out);
 }
 
 void diff_pair_print(const struct diff_pair *pair, const char *before, FILE *out) {
     const struct monge_difference *d = &pair->difference;
-    const unsigned metrics = pair->diff->args->option[OPTION_METRIC].given ? pair->diff->metrics : 0;
+    const struct option_value *option = pair->diff->args->option;
+    const unsigned metrics = option[OPTION_METRIC].given ? pair->diff->metrics : 0;
+    const bool limited = option[OPTION_MAX_DELTA].given && diff_limits_means(pair->diff);
     if (d->unlike != MONGE_UNLIKE_NOTHING) print_unlike(pair, out);
-    if (!isnan(d->max)) print_pixels(d, out);
+    if (!isnan(d->max)) print_pixels(pair, out);
     fputc('\n', out);
     for (enum monge_metric m = 0; m < MONGE_METRICS; m++)
         if (metrics & METRIC_BIT(m) && !isnan(measure(d, m)))
-            fprintf(out, "%s%-5s  %.6g\n", before, names[m], measure(d, m));
+            fprintf(out, "%s%-5s  %.6g%s\n", before, names[m], measure(d, m),
+                    limited && !mean_passes(pair->diff, d, m) ? "  beyond --max-delta" : "");
 }
 
 /* ---- For programs ---- */

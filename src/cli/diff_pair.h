@@ -4,7 +4,7 @@
 
 #include <stdio.h>
 
-#include "cli/options.h"
+#include "cli/report.h"
 #include "monge.h"
 
 /* What the command line asks for. */
@@ -13,7 +13,8 @@ struct diff {
     struct monge_picture *mask;  /* owned */
     struct monge_region *ignore; /* owned */
     struct monge_compare how;
-    unsigned metrics; /* to be told; a bit each */
+    struct report report; /* as text */
+    unsigned metrics;     /* to be told; a bit each */
 };
 
 enum diff_verdict { DIFF_SAME, DIFF_WITHIN, DIFF_DIFFERENT };
@@ -30,7 +31,7 @@ struct diff_pair {
 /* Whether --max-delta is a limit for means, not for channels. */
 bool diff_limits_means(const struct diff *diff);
 
-/* Reads and compares the two files. False: diag says why. Either way to be freed. */
+/* Reads and compares the two files. False: diag says why, or it has been told. Either way to be freed. */
 bool diff_pair_compare(struct diff_pair *pair, const struct diff *diff, const char *path_a,
                        const char *path_b, struct monge_diagnostics *diag);
 void diff_pair_free(struct diff_pair *pair);

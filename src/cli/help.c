@@ -73,7 +73,8 @@ static void print_overview(FILE *out) {
         print_row(out, left, COMMAND_TABLE[c].doc);
     }
     print_options(out, COMMAND_NONE);
-    fputs("\n`monge help COMMAND` tells more, `monge help language` how to write scenes.\nExit status:\n",
+    fputs("\n`monge help COMMAND` tells more, `monge help language` how to write scenes;\n"
+          "`monge help --man` is the manual page.\nExit status:\n",
           out);
     for (int s = 0; s <= STATUS_TROUBLE; s++) fprintf(out, "  %d  %s\n", s, STATUS_DOC[s]);
     print_wrapped(out, SIGNAL_DOC, 0, 0);

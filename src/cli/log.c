@@ -33,13 +33,14 @@ bool log_open(struct log *log, const char *path, const struct report *report) {
     note_start(log);
     log->fd = strcmp(path, "-") == 0 ? dup(STDOUT_FILENO)
                                      : open(path, O_RDWR | O_APPEND | O_CREAT | O_CLOEXEC | O_NOCTTY, 0666);
-    if (log->fd < 0) log->fd = open(path, O_WRONLY | O_APPEND | O_CLOEXEC | O_NOCTTY);
+    const int reason = errno;
+    if (log->fd < 0) log->fd = open(path, O_WRONLY | O_APPEND | O_CLOEXEC | O_NOCTTY); /* not to be read */
     if (log->fd >= 0) {
         end_line(log->fd);
         log_waiting_open(&log->waiting, path, log->fd);
         return true;
     }
-    report_failure(report, "cannot-write", "cannot write %s: %s", path, strerror(errno));
+    report_failure(report, "cannot-write", "cannot write %s: %s", path, strerror(reason));
     log->path = NULL;
     return false;
 }

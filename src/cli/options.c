@@ -230,6 +230,39 @@ static void refer_to_rules(enum option_id o, const char *shown, const char *valu
     free(entry);
 }
 
+static enum option_id find_long(enum command_id command, const char *name, size_t length) {
+    enum option_id o = 0;
+    while (o < OPTIONS && !(command_takes(command, o) && strncmp(OPTION_TABLE[o].name, name, length) == 0 &&
+                            !OPTION_TABLE[o].name[length]))
+        o++;
+    return o;
+}
+
+static enum option_id find_letter(enum command_id command, char letter) {
+    enum option_id o = 0;
+    while (o < OPTIONS && !(command_takes(command, o) && OPTION_TABLE[o].letter == letter)) o++;
+    return o;
+}
+
+/* Whether the word is an option, by its name: -o, --size or --size=640x480. */
+static bool is_option(enum command_id command, const char *word) {
+    if (word[0] != '-' || !word[1]) return false;
+    if (word[1] != '-') return !word[2] && find_letter(command, word[1]) < OPTIONS;
+    return find_long(command, word + 2, strcspn(word + 2, "=")) < OPTIONS;
+}
+
+/* The word behind an option is its value: a file, but for one that is called as an option, whose own value was left out. */
+static bool set_next_value(struct arguments *args, enum option_id option, const char *shown,
+                           struct words *rest) {
+    const enum value_kind kind = OPTION_TABLE[option].kind;
+    const char *text = take_word(rest);
+    if (!text || !(kind == VALUE_FILE || kind == VALUE_AREA) || !is_option(args->command, text))
+        return set_value(args, option, shown, text);
+    say_usage(args->command, "%s: expected %s, found the option %s; a file of that name is ./%s", shown,
+              OPTION_TABLE[option].value, text, text);
+    return false;
+}
+
 /* Reports a long option, `length` bytes of name, that the command does not have. */
 static bool unknown_long(enum command_id command, const char *name, size_t length, struct words *rest) {
     char word[64], shown[sizeof word + 2];
@@ -244,7 +277,10 @@ static bool unknown_long(enum command_id command, const char *name, size_t lengt
     for (enum option_id o = 0; o < OPTIONS; o++)
         if (command_takes(command, o)) suggestion_try(&nearest, OPTION_TABLE[o].name);
     const char *best = suggestion_best(&nearest);
-    if (best)
+    const bool side = strcmp(word, "width") == 0 || strcmp(word, "height") == 0;
+    if (side && command_takes(command, OPTION_SIZE))
+        say_usage(command, "no option `%s`; did you mean `--size WxH`?", shown);
+    else if (best)
         say_usage(command, "no option `%s`; did you mean `--%s`?", shown, best);
     else
         say_usage(command, "no option `%s`", shown);
@@ -254,16 +290,13 @@ static bool unknown_long(enum command_id command, const char *name, size_t lengt
 /* --name, --name VALUE or --name=VALUE; `word` begins after the dashes. */
 static bool parse_long(struct arguments *args, const char *word, struct words *rest) {
     const size_t length = strcspn(word, "=");
-    enum option_id o = 0;
-    while (o < OPTIONS &&
-           !(command_takes(args->command, o) && strncmp(OPTION_TABLE[o].name, word, length) == 0 &&
-             !OPTION_TABLE[o].name[length]))
-        o++;
+    const enum option_id o = find_long(args->command, word, length);
     if (o == OPTIONS) return unknown_long(args->command, word, length, rest);
     char shown[64];
     snprintf(shown, sizeof shown, "--%s", OPTION_TABLE[o].name);
     const char *value = word[length] ? word + length + 1 : NULL;
-    if (OPTION_TABLE[o].kind != VALUE_NONE) return set_value(args, o, shown, value ? value : take_word(rest));
+    if (OPTION_TABLE[o].kind != VALUE_NONE)
+        return value ? set_value(args, o, shown, value) : set_next_value(args, o, shown, rest);
     if (!value) return args->option[o].given = true;
     say_usage(args->command, "%s takes no value, found `%s`", shown, value);
     return false;
@@ -283,13 +316,12 @@ static bool unknown_letter(enum command_id command, const char *shown, const cha
 /* -q, -o VALUE, -oVALUE, or several together; `letters` begins after the dash. */
 static bool parse_letters(struct arguments *args, const char *letters, struct words *rest) {
     for (; *letters; letters++) {
-        enum option_id o = 0;
-        while (o < OPTIONS && !(command_takes(args->command, o) && OPTION_TABLE[o].letter == *letters)) o++;
+        const enum option_id o = find_letter(args->command, *letters);
         const char shown[3] = {'-', *letters, '\0'};
         if (o == OPTIONS)
             return unknown_letter(args->command, shown, letters[1] ? letters + 1 : take_word(rest));
         if (OPTION_TABLE[o].kind != VALUE_NONE)
-            return set_value(args, o, shown, letters[1] ? letters + 1 : take_word(rest));
+            return letters[1] ? set_value(args, o, shown, letters + 1) : set_next_value(args, o, shown, rest);
         args->option[o].given = true;
     }
     return true;

@@ -4,7 +4,6 @@
 #include <limits.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -16,18 +15,6 @@
 /* ---- Names ---- */
 
 static bool is_stream(const char *path) { return strcmp(path, "-") == 0; }
-
-/* A pipe or a device: may be written more than once, and is not replaced. */
-static bool is_special(const char *path) {
-    struct stat status;
-    return stat(path, &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode);
-}
-
-/* Bytes of the path up to its last slash, that included. */
-static size_t folder_length(const char *path) {
-    const char *slash = strrchr(path, '/');
-    return slash ? (size_t)(slash - path) + 1 : 0;
-}
 
 static char *joined(char *text, const char *more) {
     char *longer = say_text("%s%s", text, more);
@@ -67,9 +54,10 @@ static char *picture_path(const struct plan *plan, const struct output *output, 
 /* A pattern like the one that is wanted, in which all is told apart. */
 static char *better_pattern(const struct plan *plan) {
     const char *wanted = plan->wanted, *dot = strrchr(wanted, '.');
-    const bool extended = dot && dot > wanted + folder_length(wanted);
+    const bool extended = dot && dot > wanted + path_folder_length(wanted);
     char *text = say_text("%.*s", (int)(extended ? (size_t)(dot - wanted) : strlen(wanted)), wanted);
-    if (plan->scenes->count > 1 && !pattern_has(wanted, "name")) text = joined(text, "-{name}");
+    if ((plan->scenes->count > 1 || plan->scenes->several) && !pattern_has(wanted, "name"))
+        text = joined(text, "-{name}");
     for (size_t i = 0; i < plan->sweep->count; i++) {
         const struct axis *axis = &plan->sweep->axes[i];
         char *part = say_text("-{%s}", axis->name);
@@ -84,18 +72,27 @@ static bool many_frames(const struct plan *plan) {
     return plan->frames && plan->frames->number[0] != plan->frames->number[1];
 }
 
-/* A single file for many pictures is wrong, but for one that takes them all, as a device does. */
+/* What `plan` has too many of for a single file. To be freed. */
+static char *many_text(const struct plan *plan, bool no_frame, bool plain) {
+    if (no_frame) return say_text("many frames");
+    if (plan->count <= 1 || !plain) return say_text("a folder, a pattern or a list of scenes");
+    return say_text("%zu %s", plan->count, plan->sweep->total > 1 ? "pictures" : "scenes");
+}
+
+/* A single file for many pictures is wrong, but for one that takes them all, as a device does; so it is for what may
+ * stand for many scenes, however many there are today. */
 static bool check_pattern(const struct plan *plan) {
     const char *wanted = plan->wanted;
     if (!wanted || is_stream(wanted)) return true;
     if (!pattern_check(wanted, plan->sweep, plan->frames != NULL)) return false;
-    if (ends_in_slash(wanted) || path_is_folder(wanted) || is_special(wanted)) return true;
+    if (ends_in_slash(wanted) || path_is_folder(wanted) || path_is_special(wanted)) return true;
     const bool no_frame = many_frames(plan) && !pattern_has_frame(wanted);
-    const bool one_file = plan->count > 1 && pattern_is_plain(wanted, plan->frames != NULL);
+    const bool plain = pattern_is_plain(wanted, plan->frames != NULL);
+    const bool one_file =
+        (plan->count > 1 && plain) || (plan->scenes->several && !pattern_has(wanted, "name"));
     if (!no_frame && !one_file) return true;
     char *pattern = better_pattern(plan);
-    char *many = no_frame ? say_text("many frames")
-                          : say_text("%zu %s", plan->count, plan->sweep->total > 1 ? "pictures" : "scenes");
+    char *many = many_text(plan, no_frame, plain);
     say_usage(COMMAND_RENDER, "-o %s is one file for %s: end it in / for a folder, or write -o '%s'", wanted,
               many, pattern);
     free(many);
@@ -103,19 +100,9 @@ static bool check_pattern(const struct plan *plan) {
     return false;
 }
 
-/* Pictures of other kinds are not written; to call one so would fool whoever opens it. */
-static bool check_extension(const char *wanted) {
-    static const char *const others[] = {"jpg",  "jpeg", "gif", "bmp", "tif", "tiff", "webp",
-                                         "avif", "ppm",  "exr", "hdr", "tga", "svg",  "pdf"};
-    const char *dot = strrchr(wanted + folder_length(wanted), '.');
-    if (!dot || path_is_folder(wanted) || is_special(wanted)) return true;
-    for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
-        if (strcasecmp(dot + 1, others[i]) != 0) continue;
-        say_usage(COMMAND_RENDER, "-o %s: pictures are PNG; did you mean %.*s.png?", wanted,
-                  (int)(dot - wanted), wanted);
-        return false;
-    }
-    return true;
+static bool check_kind(const struct plan *plan) {
+    const char *wanted = plan->wanted;
+    return !wanted || is_stream(wanted) || path_check_picture(COMMAND_RENDER, "-o", wanted);
 }
 
 /* ---- Conflicts ---- */
@@ -130,7 +117,7 @@ struct claim {
 static char *resolve(const char *path) {
     char real[PATH_MAX];
     if (realpath(path, real)) return say_text("%s", real);
-    const size_t length = folder_length(path);
+    const size_t length = path_folder_length(path);
     char *folder = length ? say_text("%.*s", (int)length, path) : say_text(".");
     const bool found = realpath(folder, real);
     free(folder);
@@ -145,7 +132,7 @@ static int compare_claims(const void *a, const void *b) {
 }
 
 static bool is_namesake(const char *a, const char *b) {
-    return strcmp(a, b) != 0 && strcmp(a + folder_length(a), b + folder_length(b)) == 0;
+    return strcmp(a, b) != 0 && strcmp(a + path_folder_length(a), b + path_folder_length(b)) == 0;
 }
 
 static void report_collision(const struct plan *plan, const struct claim *a, const struct claim *b) {
@@ -175,7 +162,7 @@ static bool check_claims(struct plan *plan) {
 
 /* There is room for it. */
 static void add_claim(struct plan *plan, const char *path, const char *user, bool writes) {
-    if (is_stream(path) || is_special(path)) return;
+    if (is_stream(path) || path_is_special(path)) return;
     plan->claims[plan->claim_count++] = (struct claim){resolve(path), user, writes};
 }
 
@@ -215,9 +202,9 @@ static bool check_streams(const struct plan *plan) {
     size_t pictures = 0, devices = 0;
     for (size_t i = 0; i < plan->count; i++) {
         pictures += is_stream(plan->outputs[i].path);
-        devices += is_special(plan->outputs[i].path);
+        devices += path_is_special(plan->outputs[i].path);
     }
-    if (pictures > 1 || (pictures && many_frames(plan)))
+    if (pictures > 1 || (pictures && (many_frames(plan) || plan->scenes->several)))
         say_usage(COMMAND_RENDER, "-o -: standard output can take only one picture");
     else if (plan->passes && pictures)
         say_usage(COMMAND_RENDER, "--aov: passes are files beside the picture; give -o FILE");
@@ -267,8 +254,8 @@ static bool make_folder(struct plan *plan, char *path) {
 
 /* So that nobody waits for a picture that cannot be kept. */
 static bool check_writable(const struct report *report, const char *path) {
-    if (is_stream(path) || is_special(path)) return true;
-    const size_t length = folder_length(path);
+    if (is_stream(path) || path_is_special(path)) return true;
+    const size_t length = path_folder_length(path);
     char *folder = length ? say_text("%.*s", (int)length, path) : say_text(".");
     const bool writable =
         access(folder, W_OK | X_OK) == 0 && (access(path, F_OK) != 0 || access(path, W_OK) == 0);
@@ -279,7 +266,7 @@ static bool check_writable(const struct report *report, const char *path) {
 
 /* A FILE of -o has its folder already. */
 static bool check_folder(const struct report *report, const char *path) {
-    const size_t length = folder_length(path);
+    const size_t length = path_folder_length(path);
     char *folder = say_text("%.*s", (int)length, path);
     const bool there = length == 0 || access(folder, F_OK) == 0;
     if (!there)
@@ -316,7 +303,7 @@ bool plan_reach(struct plan *plan, const char *path) {
 
 bool plan_is_serial(const struct plan *plan) {
     for (size_t i = 0; i < plan->count; i++)
-        if (is_stream(plan->outputs[i].path) || is_special(plan->outputs[i].path)) return true;
+        if (is_stream(plan->outputs[i].path) || path_is_special(plan->outputs[i].path)) return true;
     return false;
 }
 
@@ -360,8 +347,8 @@ bool plan_begin(struct plan *plan, const struct arguments *args, const struct sc
         .scenes = scenes,
         .count = scenes->count * sweep->total,
     };
-    return check_pattern(plan) && (!plan->wanted || check_extension(plan->wanted)) && make_outputs(plan) &&
-           check_streams(plan) && check_files(plan) && (!plan->stats || check_writable(report, plan->stats));
+    return check_pattern(plan) && check_kind(plan) && make_outputs(plan) && check_streams(plan) &&
+           check_files(plan) && (!plan->stats || check_writable(report, plan->stats));
 }
 
 void plan_free(struct plan *plan) {

@@ -3,6 +3,7 @@
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include <sys/stat.h>
 
 #include "cli/say.h"
@@ -26,6 +27,35 @@ bool path_is_folder(const char *path) {
 bool path_is_link(const char *path) {
     struct stat status;
     return lstat(path, &status) == 0 && S_ISLNK(status.st_mode);
+}
+
+bool path_is_special(const char *path) {
+    struct stat status;
+    return stat(path, &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode);
+}
+
+size_t path_folder_length(const char *path) {
+    const char *slash = strrchr(path, '/');
+    return slash ? (size_t)(slash - path) + 1 : 0;
+}
+
+static bool is_of_other_pictures(const char *extension) {
+    static const char *const others[] = {"jpg",  "jpeg", "gif", "bmp", "tif", "tiff", "webp",
+                                         "avif", "ppm",  "exr", "hdr", "tga", "svg",  "pdf"};
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
+        if (strcasecmp(extension, others[i]) == 0) return true;
+    return false;
+}
+
+/* What varies in a pattern, {name} and %d, is no extension. */
+bool path_check_picture(enum command_id command, const char *option, const char *path) {
+    const char *name = path + path_folder_length(path), *dot = strrchr(name, '.');
+    const bool none = !dot || dot == name || !dot[1] || strpbrk(dot, "{}%");
+    if (!*name || path_is_folder(path) || path_is_special(path)) return true;
+    if (!none && !is_of_other_pictures(dot + 1)) return true;
+    const int length = none ? (int)strlen(path) : (int)(dot - path);
+    say_usage(command, "%s %s: pictures are PNG; did you mean %.*s.png?", option, path, length, path);
+    return false;
 }
 
 bool path_make_folders(const char *path) {

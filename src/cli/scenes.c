@@ -132,6 +132,7 @@ static void add_folder(struct search *search, const char *path, size_t below) {
     const size_t first = search->scenes->count;
     const enum status before = search->scenes->status;
     const size_t behind = length + (path[length - 1] != '/');
+    search->scenes->several = true;
     char *folder = say_text("%.*s", (int)length, path);
     search->scenes->status = STATUS_YES;
     walk(search, folder, below < length ? below : behind);
@@ -189,6 +190,7 @@ static void add_entries(struct search *search, const struct monge_text *text, co
     const enum status status = search->scenes->status;
     const char *called = is_stream(path) ? "standard input" : path;
     struct list list = list_begin(text);
+    search->scenes->several = true;
     for (char *entry; (entry = list_next(&list));)
         if (list.separator && (*entry == '@' || is_stream(entry)))
             report_trouble(search, called, "a list cannot have a list in it");
@@ -270,6 +272,7 @@ static void add_file(struct search *search, const char *path) {
 
 static void add_pattern(struct search *search, const char *pattern) {
     struct matches matches = matches_find(pattern);
+    search->scenes->several = true;
     if (matches.count == 0) report_trouble(search, pattern, "no file matches");
     for (size_t i = 0; i < matches.count; i++) {
         const char *path = matches.paths[i], *name = matches_varying(pattern, path);

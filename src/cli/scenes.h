@@ -30,6 +30,7 @@ struct scenes {
     struct monge_text input; /* the scene on standard input; without bytes where there is none */
     enum status status;      /* STATUS_TROUBLE: some operand stands for nothing; the reason has been told */
     size_t missing;          /* such operands, and lines of lists */
+    bool several;            /* some operand may stand for several: a folder, a pattern, a list */
 };
 
 /* What is taken of the files below folders. */

@@ -45,9 +45,9 @@ static bool read_range(const char *text, double *first, double *last, double *st
     return read_number(&text, step) && !*text;
 }
 
-/* The numbers from first to last. False when they are none or too many. */
+/* The numbers from first to last, a step over 0 apart. False when they are too many. */
 static bool add_range(struct axis *axis, double first, double last, double step) {
-    const double turns = step > 0.0 ? floor(fabs(last - first) / step + 1e-9) : INFINITY;
+    const double turns = floor(fabs(last - first) / step + 1e-9);
     if (!(turns < MAX_COMBINATIONS)) return false;
     for (double i = 0.0; i <= turns; i++)
         add_value(axis, say_text("%.12g", first < last ? first + i * step : first - i * step));
@@ -84,8 +84,10 @@ static bool add_item(struct axis *axis, enum command_id command, const char *tex
         add_value(axis, item);
         return true;
     }
-    const bool good = add_range(axis, first, last, step);
-    if (!good)
+    const bool good = step > 0.0 && add_range(axis, first, last, step);
+    if (!(step > 0.0))
+        say_usage(command, "-D %s: the step of `%s` must be over 0; 4..1 goes down", axis->name, item);
+    else if (!good)
         say_usage(command, "-D %s: `%s` is no range of at most %d values", axis->name, item,
                   MAX_COMBINATIONS);
     free(item);
@@ -99,8 +101,9 @@ static bool read_list(struct axis *axis, enum command_id command, const char *te
         const char *end = item_end(text);
         size_t length = (size_t)(end - text);
         while (length > 0 && text[length - 1] == ' ') length--;
-        if (length == 0 && (*end || text > whole)) {
-            say_usage(command, "-D %s: an empty value in `%s`", axis->name, whole);
+        if (length == 0) {
+            say_usage(command, *whole ? "-D %s: an empty value in `%s`" : "-D %s=: the value is empty",
+                      axis->name, whole);
             return false;
         }
         if (!add_item(axis, command, text, length)) return false;

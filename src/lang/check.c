@@ -297,7 +297,8 @@ static void check_unknown(struct checker *ck, struct object_value *object, struc
     const bool again = mapping->given[index] || is_meant(mapping, index);
     mapping->meant |= (uint64_t)1 << index;
     const struct grammar_key *key = &object->kind->keys[index];
-    const struct value *value = again ? NULL : check_field(ck, object->kind, key, name);
+    const struct value *value =
+        again || is_number_for_row(key, name->next) ? NULL : check_field(ck, object->kind, key, name);
     const bool knows_names =
         object->kind != &grammar_kinds[KIND_TEMPLATE]; /* its parameters are not in scope here */
     if (value && knows_names && key->type == GRAMMAR_LIST && key->of == &grammar_kinds[KIND_OBJECT])

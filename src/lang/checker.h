@@ -256,6 +256,10 @@ bool report_cut(struct checker *ck, const char *what, const struct node *value);
 bool report_cut_in(struct checker *ck, const char *what, const struct node *list);
 bool report_cut_before(struct checker *ck, const struct node *mapping, const struct node *key);
 
+/* Whether a number stands where [x, y, z] belongs, as in `offset: 1` of a plane: that the key is another one then tells
+ * enough. */
+bool is_number_for_row(const struct grammar_key *key, const struct node *value);
+
 /* Adds what a decimal comma in a mapping was meant to be: in `{radius: 1,5}` the 5 is a key without a value. */
 bool report_help_comma(struct checker *ck, struct diagnostic *d, const struct node *mapping,
                        const struct node *key);

@@ -172,6 +172,7 @@ static enum quantity_result read_color(struct checker *ck, const struct grammar_
         struct diagnostic *d =
             diag_error(ck->diag, node->span, "not-a-color", "`%s`: expected a colour, found %s", key->name,
                        found_quantity(ck, node, &q));
+        scope_tell_given(ck, d, node);
         const struct node *n = node_resolve(node);
         if (q.count == 1 && n->kind == NODE_SCALAR)
             diag_help(ck->diag, d,

@@ -328,6 +328,18 @@ static bool help_box(struct checker *ck, struct diagnostic *d, const struct node
     return true;
 }
 
+bool is_number_for_row(const struct grammar_key *key, const struct node *value) {
+    const struct node *n = node_resolve(value);
+    return (key->type == GRAMMAR_POINT || key->type == GRAMMAR_DIRECTION) && n->kind == NODE_SCALAR &&
+           scalar_is_number(n->text);
+}
+
+/* What the key was meant to be: `point`, or `point: [x, y, z]` where a number stands under it. */
+static const char *meant_text(struct checker *ck, const struct grammar_key *meant, const struct node *key) {
+    return is_number_for_row(meant, key->next) ? arena_format(ck->arena, "%s: [x, y, z]", meant->name)
+                                               : meant->name;
+}
+
 /* The help for an unknown key, the surest first; returns the key that was meant, or -1. */
 static int help_unknown(struct checker *ck, struct diagnostic *d, const struct grammar_kind *kind,
                         struct mapping *mapping, const struct node *key) {
@@ -347,21 +359,22 @@ static int help_unknown(struct checker *ck, struct diagnostic *d, const struct g
         return -1;
     }
     if (instead >= 0) {
-        diag_help(ck->diag, d, "it is called `%s` here", kind->keys[instead].name);
+        diag_help(ck->diag, d, "it is called `%s` here", meant_text(ck, &kind->keys[instead], key));
         return instead;
     }
+    const int best = s.best ? grammar_find_key(kind, s.best) : -1;
     if (s.best && s.distance <= 1) {
-        diag_help(ck->diag, d, "did you mean `%s`?", s.best);
-        return grammar_find_key(kind, s.best);
+        diag_help(ck->diag, d, "did you mean `%s`?", meant_text(ck, &kind->keys[best], key));
+        return best;
     }
     if (help_around(ck, d, kind, mapping, word)) return -1;
     if (near >= 0)
         diag_help(ck->diag, d, "the nearest is `%s`: %s", kind->keys[near].name, kind->keys[near].doc);
     else if (s.best)
-        diag_help(ck->diag, d, "did you mean `%s`?", s.best);
+        diag_help(ck->diag, d, "did you mean `%s`?", meant_text(ck, &kind->keys[best], key));
     else
         help_elsewhere(ck, d, word);
-    return s.best && near < 0 ? grammar_find_key(kind, s.best) : -1;
+    return near < 0 ? best : -1;
 }
 
 int report_unknown_key(struct checker *ck, const struct grammar_kind *kind, struct mapping *mapping,

@@ -125,8 +125,10 @@ static enum quantity_result read_vector(struct checker *ck, const struct grammar
     if (result != QUANTITY_OK) return result;
     if (q.count != 3 && (q.count != 1 || key->type != GRAMMAR_FACTORS)) {
         if (n->kind == NODE_SCALAR && scalar_is_number(n->text)) return QUANTITY_NONE;
-        diag_error(ck->diag, node->span, "not-a-row", "`%s`: expected [x, y, z], found %s", key->name,
-                   found_quantity(ck, node, &q));
+        struct diagnostic *d =
+            diag_error(ck->diag, node->span, "not-a-row", "`%s`: expected [x, y, z], found %s", key->name,
+                       found_quantity(ck, node, &q));
+        scope_tell_given(ck, d, node);
         return QUANTITY_WRONG;
     }
     for (unsigned i = 0; i < 3; i++) v[i] = q.v[q.count == 3 ? i : 0];

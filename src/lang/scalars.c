@@ -192,6 +192,7 @@ static void report_no_number(struct checker *ck, const struct grammar_key *key, 
     struct diagnostic *d =
         diag_error(ck->diag, node->span, "not-a-number", "`%s`: expected %s, found %s", key->name,
                    wanted_number(key), value ? found_quantity(ck, node, value) : found_text(ck, node));
+    scope_tell_given(ck, d, node);
     if (n->kind == NODE_SEQUENCE && n->count == 3)
         diag_note(ck->diag, d,
                   "one number serves all three axes here; stretch the object by `scale` in its `transform`");
@@ -299,6 +300,7 @@ static bool report_out_of_range(struct checker *ck, const struct grammar_key *ke
                                 : arena_format(ck->arena, "%s, which is %.15g", found_text(ck, node), value);
     struct diagnostic *d = diag_error(ck->diag, node->span, "out-of-range", "`%s`: must be %s, found %s",
                                       key->name, range_text(ck, key), found);
+    scope_tell_given(ck, d, node);
     if (high && key->type == GRAMMAR_SIZE)
         diag_help(ck->diag, d, "a square of that side would take %.3g GiB of memory",
                   12.0 * value * value / (1 << 30));
@@ -327,8 +329,10 @@ bool check_integer(struct checker *ck, const struct grammar_key *key, const stru
     if (result == QUANTITY_UNKNOWN) return take_default(ck, key, out);
     if (result != QUANTITY_OK) return false;
     if (value != floor(value)) {
-        diag_error(ck->diag, node->span, "not-whole", "`%s`: expected a whole number, found %s", key->name,
-                   found_text(ck, node));
+        struct diagnostic *d =
+            diag_error(ck->diag, node->span, "not-whole", "`%s`: expected a whole number, found %s",
+                       key->name, found_text(ck, node));
+        scope_tell_given(ck, d, node);
         return false;
     }
     if (!check_in_range(ck, key, node, value)) return false;

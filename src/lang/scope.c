@@ -133,11 +133,44 @@ static struct span span_within(const struct node *n, size_t offset, size_t lengt
     return span;
 }
 
+/* An expression that something is wrong with. */
+struct wrong_expression {
+    struct checker *ck;
+    struct diagnostic *diagnostic;
+    const struct node *told; /* the value that was told last */
+};
+
+static bool is_given(const struct checker *ck, const struct node *value) {
+    const struct parameter *p = ck->first_parameter;
+    while (p && !(p->given && p->given->span.source == value->span.source)) p = p->next;
+    return p != NULL;
+}
+
+static enum expr_found tell_given(void *context, const char *name, struct quantity *out) {
+    (void)out;
+    struct wrong_expression *wrong = context;
+    const struct binding *b = scope_find(wrong->ck, name);
+    const struct node *value = b && b->node && is_given(wrong->ck, b->node) ? b->node : NULL;
+    if (value && value != wrong->told)
+        diag_related(wrong->ck->diag, wrong->diagnostic, value->span, "`%s` is given here", name);
+    if (value) wrong->told = value;
+    return EXPR_LATER;
+}
+
+void scope_tell_given(struct checker *ck, struct diagnostic *d, const struct node *node) {
+    const struct node *n = node_resolve(node);
+    struct wrong_expression wrong = {ck, d, NULL};
+    const struct expr_scope scope = {&wrong, tell_given, list_names};
+    struct expr_error ignored;
+    if (n->kind == NODE_SCALAR && n->expr) expr_check(n->expr, &scope, ck->arena, &ignored);
+}
+
 static enum quantity_result report(struct checker *ck, const char *what, const struct node *n,
                                    const struct expr_error *error) {
     if (report_cut(ck, what, n)) return QUANTITY_WRONG;
     struct diagnostic *d = diag_error(ck->diag, span_within(n, error->offset, error->length), error->code,
                                       "`%s`: %s", what, error->message);
+    scope_tell_given(ck, d, n);
     if (strcmp(error->code, "unknown-variable") == 0 &&
         scope_needs_animation(ck, arena_text(ck->arena, n->text + error->offset, error->length)))
         diag_help(ck->diag, d, "for `frame`, `t` and `time` add `animation: {frames: 24}`");

@@ -38,6 +38,9 @@ bool scope_needs_animation(const struct checker *ck, const char *name);
 /* What is told of something wrong in what the node, a variable, stands for. */
 struct diag_frame scope_frame(struct checker *ck, const struct node *node);
 
+/* Tells of an expression that something is wrong with where its values from outside are given. */
+void scope_tell_given(struct checker *ck, struct diagnostic *d, const struct node *node);
+
 /* What a scalar that is a variable's name alone stands for, if that is a node or unknown: NULL else. */
 const struct binding *scope_stands_for(struct checker *ck, const struct node *node);
 

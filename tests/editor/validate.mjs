@@ -36,6 +36,8 @@ const EXCEPTIONS = {
     text_long_utf8: "a word may be the name of a parameter",
     tolerance_nothing: "any one of the bounds will do",
     tolerance_pixels: "pixels are a text with or without %",
+    tolerance_pixels_over: "the same",
+    tolerance_pixels_part: "the same",
 };
 
 function read(text) {
