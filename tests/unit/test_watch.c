@@ -120,6 +120,10 @@ static void entries_are_of_one_question(void **state) {
     assert_true(accel_any(n.accel, &watch, (ray){{60, 0, 20}, {0, 0, -1}}, 0, INFINITY));
     assert_true(accel_nearest(n.accel, NULL, at_ball, 0, INFINITY, &hit));
     nest_end(&n);
+    nest_begin(&n, NEST("3", "16", CLAY), true);
+    assert_false(accel_nearest_clear(n.accel, &watch, at_ball, 0, INFINITY, &hit));
+    assert_true(accel_nearest_clear(n.accel, NULL, at_ball, 0, INFINITY, &hit));
+    nest_end(&n);
 }
 
 struct visits {
