@@ -300,6 +300,31 @@ static void a_quadric_takes_its_coefficients(void **state) {
     unload(&l);
 }
 
+/* The box of what is left of each form, open or closed. */
+static void forms_reach_as_far_as_they_do(void **state) {
+    (void)state;
+    static const struct {
+        const char *shape;
+        double across, bottom, top;
+        bool may_open;
+    } want[] = {{"sphere", 1, -1, 1, false},      {"box", 0.5, -0.5, 0.5, false},
+                {"cylinder", 1, -0.5, 0.5, true}, {"cone", 1, -1, 0, true},
+                {"paraboloid", 1, 0, 1, true},    {"hyperboloid", 1.4142135623730951, -1, 1, true}};
+    for (size_t i = 0; i < COUNT(want); i++)
+        for (int open = 0; open <= want[i].may_open; open++) {
+            char text[200];
+            struct loaded l;
+            snprintf(text, sizeof text, "scene: [{%s: {%s}, transform: {scale: [1, 2, 1]}}]", want[i].shape,
+                     open ? "open: true" : "");
+            load_good(&l, text);
+            const box3 extent = l.scene.primitives.quadrics[0].form->extent;
+            const double a = want[i].across;
+            assert_vec3_near(extent.min, (vec3){-a, -a, want[i].bottom}, 3e-16, want[i].shape);
+            assert_vec3_near(extent.max, (vec3){a, a, want[i].top}, 3e-16, want[i].shape);
+            unload(&l);
+        }
+}
+
 /* Whichever is the largest, of whichever sign and size: it comes to 1.5, as the others do beside it. */
 static void a_quadric_is_scaled_by_a_power_of_two(void **state) {
     (void)state;
@@ -903,6 +928,7 @@ int main(void) {
         cmocka_unit_test(planes_and_discs_face_along_their_normal),
         cmocka_unit_test(numbers_follow_the_file_through_the_kinds),
         cmocka_unit_test(a_quadric_takes_its_coefficients),
+        cmocka_unit_test(forms_reach_as_far_as_they_do),
         cmocka_unit_test(a_quadric_is_scaled_by_a_power_of_two),
         cmocka_unit_test(balls_of_any_size_are_spheres),
         cmocka_unit_test(aliases_take_memory_once),
