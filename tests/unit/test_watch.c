@@ -103,6 +103,7 @@ static void any_hit_counts_too(void **state) {
     assert_true(watch.stop == ACCEL_GOES_ON);
     accel_any(n.accel, &watch, (ray){{2.99, 2.99, 20}, {0, 0, -1}}, 0, INFINITY);
     assert_true(watch.stop == ACCEL_TOO_MANY_ENTRIES);
+    assert_int_equal(watch.number, 1);
     nest_end(&n);
 }
 
