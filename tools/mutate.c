@@ -5,7 +5,8 @@
  *     mutate make FILE NUMBER    the source, broken in this way, on standard output
  *
  * It knows tokens and brackets, nothing of types: some ways do not compile. Only what stands in braces is
- * broken, and numbers with a name, never comments, texts, directives, assertions and messages. */
+ * broken, and numbers with a name, never comments, texts, directives, assertions and messages. Nor are sizes of
+ * arrays in declarations, `type name[3], other[4]`: room for more changes nothing. */
 #include <ctype.h>
 #include <stdbool.h>
 #include <stdint.h>
@@ -323,11 +324,22 @@ static void delete_statement(int i) {
     }
 }
 
-/* Of an array that is declared: `type name[3][4]`. */
+/* Whether the comma before a name lies between declarators: its statement begins with two words, or a word and `*`. */
+static bool separates_declarators(int comma) {
+    int i = comma - 1;
+    for (; i >= 0 && !is(i, ";") && !is(i, "(") && !is(i, "{"); i--) {
+        if (is(i, "}") && !is(i + 1, ",")) break; /* of a block; that of an initializer has a comma behind it */
+        if (tokens[i].match >= 0) i = tokens[i].match;
+    }
+    return tokens[i + 1].type == WORD && (tokens[i + 2].type == WORD || is(i + 2, "*"));
+}
+
+/* Of an array that is declared: `type name[3][4], other[5]`. */
 static bool is_array_size(int i) {
     if (!is(i - 1, "[")) return false;
     for (i -= 2; is(i, "]"); i--) i = tokens[i].match;
-    return tokens[i].type == WORD && (tokens[i - 1].type == WORD || is(i - 1, "*"));
+    return tokens[i].type == WORD && (tokens[i - 1].type == WORD || is(i - 1, "*") ||
+                                      (is(i - 1, ",") && separates_declarators(i - 1)));
 }
 
 /* An assertion, or the words of a message. */

@@ -2,19 +2,18 @@
 
 #include <math.h>
 #include <sleef.h>
+#include <string.h>
 
 static const double degrees_per_radian = 57.29577951308232; /* 180 / pi */
 
 double elementary_pow(double base, double exponent) { return Sleef_cinz_powd1_u10purec(base, exponent); }
-/* Of the deterministic functions those for four or eight numbers give the bits of those for one. */
-static void powers_by_1(size_t count, const float *base, const float *exponent, float *out) {
-    for (size_t i = 0; i < count; i++) out[i] = Sleef_cinz_powf1_u10purec(base[i], exponent[i]);
-}
 
 #ifdef __x86_64__
-/* sleef.h has it only for those who compile for AVX altogether. */
+/* Of the deterministic functions those for four or eight numbers give the bits of those for one.
+ * sleef.h has this one only for those who compile for AVX altogether. */
 __attribute__((target("avx"))) __m256 Sleef_cinz_powf8_u10avx(__m256, __m256);
 
+/* How many are done: all but the last few. */
 __attribute__((target("avx"))) static size_t powers_by_8(size_t count, const float *base,
                                                          const float *exponent, float *out) {
     size_t i = 0;
@@ -32,13 +31,20 @@ static size_t powers_by_4(size_t count, const float *base, const float *exponent
 }
 
 void elementary_powf(size_t count, const float *base, const float *exponent, float *out) {
-    size_t done = __builtin_cpu_supports("avx") ? powers_by_8(count, base, exponent, out) : 0;
-    done += powers_by_4(count - done, base + done, exponent + done, out + done);
-    powers_by_1(count - done, base + done, exponent + done, out + done);
+    size_t (*const powers)(size_t, const float *, const float *, float *) =
+        __builtin_cpu_supports("avx") ? powers_by_8 : powers_by_4;
+    const size_t done = powers(count, base, exponent, out);
+    const size_t bytes = (count - done) * sizeof *out;
+    float last[2][8] = {0};
+    if (done == count) return;
+    memcpy(last[0], base + done, bytes);
+    memcpy(last[1], exponent + done, bytes);
+    powers_by_4(8, last[0], last[1], last[0]);
+    memcpy(out + done, last[0], bytes);
 }
 #else
 void elementary_powf(size_t count, const float *base, const float *exponent, float *out) {
-    powers_by_1(count, base, exponent, out);
+    for (size_t i = 0; i < count; i++) out[i] = Sleef_cinz_powf1_u10purec(base[i], exponent[i]);
 }
 #endif
 
@@ -53,10 +59,9 @@ static double sin_of_quarters(double angle_deg, int quarters_on) {
     const double quarter = floor(turn / 90.0 + 0.5);
     const double rest = turn - 90.0 * quarter;
     const int which = ((int)quarter + quarters_on) & 3;
-    const double half =
+    const double sine =
         which & 1 ? Sleef_cinz_cospid1_u05purec(rest / 180.0) : Sleef_cinz_sinpid1_u05purec(rest / 180.0);
-    const double exact = !(which & 1) && fabs(rest) == 30.0 ? copysign(0.5, rest) : half;
-    return which & 2 ? -exact : exact;
+    return which & 2 ? -sine : sine;
 }
 
 double elementary_sin_deg(double angle_deg) { return sin_of_quarters(angle_deg, 0); }
@@ -79,6 +84,6 @@ double elementary_acos_deg(double cosine) {
 double elementary_atan_deg(double tangent) { return elementary_atan2_deg(tangent, 1.0); }
 
 double elementary_atan2_deg(double y, double x) {
-    if (fabs(y) == fabs(x)) return y == 0.0 ? 0.0 : copysign(x > 0.0 ? 45.0 : 135.0, y);
+    if (y == 0.0 && x == 0.0) return 0.0;
     return Sleef_cinz_atan2d1_u10purec(y + 0.0, x) * degrees_per_radian; /* + 0.0: of -0 makes 0 */
 }

@@ -1,5 +1,7 @@
 #include "render/media.h"
 
+#include <string.h>
+
 double media_index(const struct media *media) {
     return media->count ? media->inside[media->count - 1].index : 1.0;
 }
@@ -41,24 +43,25 @@ struct nesting {
         double end; /* how far along the ray it ends */
         struct occurrence which;
         double index;
-    } bodies[MEDIA_MAX];
+    } bodies[MEDIA_MAX + 1]; /* one more, until the outermost is forgotten */
     const struct scene *scene;
 };
 
-/* How far along the ray the body ends; negative when its origin is not inside of it. */
+/* How far along the ray the body ends; 0 when its origin is not inside of it. */
 static double exit_distance(const struct primitives *p, primitive_ref ref, ray r) {
     const struct flat *plane = as_plane(p, ref);
     const bool inside =
         plane ? affine_point(&plane->object_from_world, r.org).z < 0.0 : shape_contains(p, ref, r.org);
     struct crossing out;
-    if (!inside) return -1.0;
+    if (!inside) return 0.0;
     return shape_first_crossing(p, ref, r, 0.0, INFINITY, &out) ? out.t : INFINITY;
 }
 
+/* Of two that are not the same: they differ before either ends, as an instance and a body have not one number. */
 static bool occurrence_before(const struct occurrence *a, const struct occurrence *b) {
-    for (uint32_t i = 0; i <= a->depth && i <= b->depth; i++)
-        if (a->number[i] != b->number[i]) return a->number[i] < b->number[i];
-    return false;
+    uint32_t i = 0;
+    while (a->number[i] == b->number[i]) i++;
+    return a->number[i] < b->number[i];
 }
 
 static bool is_inside_of(const struct body *a, double end, const struct occurrence *which) {
@@ -68,16 +71,14 @@ static bool is_inside_of(const struct body *a, double end, const struct occurren
 static void add_body(void *context, const struct hit *hit, ray in_set) {
     struct nesting *n = context;
     const double end = exit_distance(hit->set, hit->ref, in_set);
-    if (end < 0.0) return;
-    int at = n->count;
-    while (at > 0 && is_inside_of(&n->bodies[at - 1], end, &hit->which)) at--;
-    if (n->count == MEDIA_MAX) { /* full: the outermost gives way */
-        if (at-- == 0) return;
-        for (int j = 0; j < at; j++) n->bodies[j] = n->bodies[j + 1];
-    } else {
-        for (int j = n->count++; j > at; j--) n->bodies[j] = n->bodies[j - 1];
-    }
+    if (end == 0.0) return;
+    int at = n->count++;
+    for (; at > 0 && is_inside_of(&n->bodies[at - 1], end, &hit->which); at--)
+        n->bodies[at] = n->bodies[at - 1];
     n->bodies[at] = (struct body){end, hit->which, n->scene->materials[hit->material].index};
+    if (n->count <= MEDIA_MAX) return;
+    n->count = MEDIA_MAX; /* the outermost gives way */
+    memmove(n->bodies, n->bodies + 1, MEDIA_MAX * sizeof *n->bodies);
 }
 
 void media_at(const struct scene *scene, const struct accel *accel, struct accel_watch *watch, ray r,

@@ -25,7 +25,7 @@ static vec3 *sample_places(struct arena *arena, uint32_t count) {
     uint32_t cells = 1;
     while (cells < count) cells *= 2;
     for (uint32_t i = 0; i < count; i++)
-        places[i] = (vec3){(i + 0.5) / count, radical_inverse(i) + 0.5 / cells, 0.0};
+        places[i] = (vec3){.x = (i + 0.5) / count, .y = radical_inverse(i) + 0.5 / cells};
     return places;
 }
 

@@ -59,7 +59,7 @@ static vec3 shaded_normal(const struct tracer *tracer, const struct meeting *m) 
     return !m->outside && tracer->scene->two_sided ? vec3_neg(m->surface.normal) : m->surface.normal;
 }
 
-/* The part of a light that reaches the surface; `to_light` is unit. */
+/* The part of a light that reaches the surface; `to_light` is of any length. */
 static vec3 light_reaching(const struct path *path, const struct meeting *m, vec3 to_light,
                            const struct light *light) {
     const double side = vec3_dot(m->surface.normal, to_light) > 0.0 ? 1.0 : -1.0;
@@ -118,7 +118,7 @@ static bool refract(vec3 dir, vec3 toward, double n1, double n2, vec3 *out) {
     const double ratio = n1 / n2, cosine = -vec3_dot(dir, toward);
     const double rest = 1.0 - ratio * ratio * (1.0 - cosine * cosine);
     if (!(rest >= 0.0)) return false;
-    *out = vec3_normalize(vec3_madd(vec3_scale(dir, ratio), ratio * cosine - sqrt(rest), toward));
+    *out = vec3_madd(vec3_scale(dir, ratio), ratio * cosine - sqrt(rest), toward);
     return true;
 }
 
@@ -188,7 +188,7 @@ uint64_t trace_lights(const struct tracer *tracer, const struct sight *sight, ui
     uint64_t reaching = 0;
     for (uint32_t i = 0; i < count && i < tracer->light_count; i++) {
         const struct light *light = &tracer->lights[i];
-        const vec3 to_light = vec3_normalize(vec3_sub(light->at, sight->surface.point));
+        const vec3 to_light = vec3_sub(light->at, sight->surface.point);
         if (!(vec3_dot(sight->normal, to_light) > 0.0)) continue;
         if (vec3_max_abs(light_reaching(&path, &m, to_light, light)) > 0.0) reaching |= (uint64_t)1 << i;
     }

@@ -14,10 +14,8 @@ void *builder_grow(struct builder *b, void *array, uint32_t count, uint32_t *roo
 /* ---- Levels ---- */
 
 static affine world_from_object(struct builder *b, const struct object_value *object) {
-    affine parent_from_node = AFFINE_IDENTITY;
     if (!object_has(object, KEY_OBJECT_TRANSFORM)) return b->level->world_from_node;
-    transform_build(b, object_list(object, KEY_OBJECT_TRANSFORM),
-                    &parent_from_node); /* a wrong one is reported: go on */
+    const affine parent_from_node = transform_build(b, object_list(object, KEY_OBJECT_TRANSFORM));
     return affine_compose(b->level->world_from_node, parent_from_node);
 }
 

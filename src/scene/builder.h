@@ -53,9 +53,8 @@ struct builder {
 /* Room for one more in an array of `count` in the scene's arena, twice as much when it is full. */
 void *builder_grow(struct builder *b, void *array, uint32_t count, uint32_t *room, size_t size);
 
-/* The transform that a list of steps makes, the first step applied first. Singular ones are reported:
- * false, and *out is untouched. */
-bool transform_build(struct builder *b, struct object_list steps, affine *out);
+/* The transform that a list of steps makes, the first step applied first. Singular ones are reported and left out. */
+affine transform_build(struct builder *b, struct object_list steps);
 
 /* Settings, camera and lights of the file; mistakes are reported. */
 void settings_build(struct builder *b, const struct object_value *file);

@@ -64,21 +64,17 @@ static void report_singular(struct builder *b, const struct object_value *step, 
                    : "it flattens the object, or its numbers are out of range");
 }
 
-bool transform_build(struct builder *b, struct object_list steps, affine *out) {
+affine transform_build(struct builder *b, struct object_list steps) {
     affine all = AFFINE_IDENTITY, inverse;
-    bool ok = true;
     for (uint32_t i = 0; i < steps.count; i++) {
         const struct object_value *step = steps.items[i];
         const int key = object_alternative(step);
         if (key < 0 || step->failed) continue;
         const affine one = step_build(b, step, key);
-        if (!affine_invert(one, &inverse)) {
-            report_singular(b, step, key, one);
-            ok = false;
-        } else {
+        if (affine_invert(one, &inverse))
             all = affine_compose(one, all);
-        }
+        else
+            report_singular(b, step, key, one);
     }
-    if (ok) *out = all;
-    return ok;
+    return all;
 }

@@ -144,7 +144,7 @@ static ray random_ray(double size, bool grid) {
         double *const axes[] = {&r.dir.x, &r.dir.y, &r.dir.z};
         double *const places[] = {&r.org.x, &r.org.y, &r.org.z};
         const uint32_t along = random_below(3);
-        *axes[along] = random_below(2) ? 2.0 : -random_in(1, 7);
+        *axes[along] = (random_below(2) ? 1 : -1) * (random_below(2) ? 2.0 : random_in(1, 7));
         if (random_below(3) == 0) *places[along] = -*axes[along] * size * exp2(random_in(30, 50));
     }
     return vec3_max_abs(r.dir) > 0.0 ? r : (ray){r.org, {0, 0, 1}};

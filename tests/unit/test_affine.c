@@ -109,6 +109,16 @@ static void compose_applies_the_second_argument_first(void **state) {
     }
 }
 
+static void the_simplest_maps(void **state) {
+    (void)state;
+    const vec3 p = {1, 2, 4}, by = {8, 16, 32};
+    const affine moved = affine_translate(by), scaled = affine_scale(by);
+    assert_vec3_same(affine_point(&AFFINE_IDENTITY, p), p);
+    assert_vec3_same(affine_point(&moved, p), vec3_add(p, by));
+    assert_vec3_same(affine_direction(&moved, p), p);
+    assert_vec3_same(affine_point(&scaled, p), vec3_mul(p, by));
+}
+
 static void columns_are_images_of_the_axes(void **state) {
     (void)state;
     const affine map = affine_columns((vec3){1, 2, 3}, (vec3){4, 5, 6}, (vec3){7, 8, 10}, (vec3){-1, -2, -3});
@@ -263,13 +273,14 @@ static void nearly_flat_is_not_flat(void **state) {
     }
 }
 
-/* Just within and just beyond what is said: of sizes, of places, and of determinants. */
+/* Just within and just beyond what is said, and there itself: of sizes, of places, and of determinants. */
 static void limits_are_where_they_are(void **state) {
     (void)state;
     affine inverse;
     for (int i = 0; i < 3; i++)
-        for (int beyond = 0; beyond < 2; beyond++) {
-            const double more = beyond ? 1.01 : 0.99, less = beyond ? 0.99 : 1.01;
+        for (int beyond = 0; beyond < 3; beyond++) {
+            static const double factors[] = {0.99, 1, 1.01};
+            const double more = factors[beyond], less = factors[2 - beyond];
             const double columns[] = {less * 1e-100, more * 1e100};
             for (int k = 0; k < 2; k++) {
                 affine sized = AFFINE_IDENTITY;
@@ -323,6 +334,22 @@ static void check_similar(void **state) {
         assert_true(factor == -1);
 }
 
+/* At a size of 1e12 lengths may differ by 1, and a column may lean to another by 1: all of that is exact. */
+static void similar_up_to_the_tolerance(void **state) {
+    (void)state;
+    static const double most[] = {-1.001, -1, 1, 1.001};
+    for (size_t k = 0; k < COUNT(most); k++)
+        for (int i = 0; i < 3; i++)
+            for (int j = 0; j < 3; j++) {
+                affine map = affine_scale(vec3_all(1e12));
+                double factor = 0;
+                map.m[i][j] += most[k];
+                if (i == 0 && j == 0) continue; /* the length that the others are compared with */
+                assert_int_equal(affine_is_similarity(map, &factor), fabs(most[k]) == 1);
+                assert_true(factor == (fabs(most[k]) == 1 ? 1e12 : 0));
+            }
+}
+
 static void finite_means_all_twelve(void **state) {
     (void)state;
     assert_true(affine_is_finite(AFFINE_IDENTITY));
@@ -347,6 +374,7 @@ int main(void) {
         cmocka_unit_test(a_third_turn_about_the_diagonal_permutes_the_axes),
         cmocka_unit_test(random_rotations),
         cmocka_unit_test(compose_applies_the_second_argument_first),
+        cmocka_unit_test(the_simplest_maps),
         cmocka_unit_test(columns_are_images_of_the_axes),
         cmocka_unit_test(normals_stay_across_their_planes),
         cmocka_unit_test(magnitude_bounds_the_sum),
@@ -354,6 +382,7 @@ int main(void) {
         cmocka_unit_test(extreme_sizes_have_inverses),
         cmocka_unit_test(nearly_flat_is_not_flat),
         cmocka_unit_test(limits_are_where_they_are),
+        cmocka_unit_test(similar_up_to_the_tolerance),
         cmocka_unit_test(finite_means_all_twelve),
     };
     return cmocka_run_group_tests_name("rows", tests, NULL, NULL) +

@@ -118,6 +118,8 @@ static void an_up_along_the_view_gives_way(void **state) {
     assert_vec3_near(view_of(camera, 100, 100).up, (vec3){1, 0, 0}, 2e-8, "up, nearly along y");
     camera.up = (vec3){1.1e-9, 1, 0};
     assert_vec3_near(view_of(camera, 100, 100).up, (vec3){1, 0, 0}, 2e-8, "up, as little as tells");
+    camera.up = (vec3){1e-9, 1, 0};
+    assert_vec3_near(view_of(camera, 100, 100).up, (vec3){1, 0, 0}, 2e-8, "up, exactly the least that tells");
     camera.up = (vec3){0.9e-9, 1, 0};
     assert_vec3_near(view_of(camera, 100, 100).up, (vec3){0, 0, -1}, 2e-8, "up, too little to tell");
     camera.up = (vec3){0, 0, 1};
@@ -125,6 +127,9 @@ static void an_up_along_the_view_gives_way(void **state) {
     assert_vec3_near(view_of(camera, 100, 100).right, (vec3){0, -1, 0}, 2e-8, "right, as little as tells");
     camera.direction = (vec3){0.9e-9, 0, 1};
     assert_vec3_near(view_of(camera, 100, 100).right, (vec3){1, 0, 0}, 2e-8, "right, too little to tell");
+    camera.direction = camera.up = (vec3){1e-9, 0, 1};
+    assert_vec3_near(view_of(camera, 100, 100).right, (vec3){0, 1, 0}, 2e-8,
+                     "right, exactly the least that tells");
 }
 
 static void directions_are_of_any_length(void **state) {

@@ -121,9 +121,11 @@ static void angles_of_whole_degrees(void **state) {
         assert_true(elementary_acos_deg(sines[i][0]) == 90 - sines[i][1]);
     }
     for (int i = -3; i <= 4; i++) {
-        static const double at[] = {0, 7,  7,  7,
-                                    0, -7, -7, -7}; /* the sine of i eighths of a turn, but for its length */
-        assert_true(elementary_atan2_deg(at[i & 7], at[(i + 2) & 7]) == 45 * i);
+        static const int at[] = {0, 1,  1,  1,
+                                 0, -1, -1, -1}; /* the sine of i eighths of a turn, but for its length */
+        static const double sizes[] = {1e-300, 0.1, 7, 1e300};
+        for (size_t k = 0; k < COUNT(sizes); k++)
+            assert_true(elementary_atan2_deg(at[i & 7] * sizes[k], at[(i + 2) & 7] * sizes[k]) == 45 * i);
     }
     assert_true(elementary_atan2_deg(-0.0, -1) == 180 && elementary_atan2_deg(-0.0, 0) == 0 &&
                 elementary_atan2_deg(0, -0.0) == 0);

@@ -154,6 +154,47 @@ static void the_knots_are_on_the_curve(void **state) {
     assert_true(all.beyond == 7);
 }
 
+/* An encoder that takes the curve for flat, behind the last knot as well. */
+struct flat_curve {
+    struct encoder encoder;
+    double beyond;
+};
+
+static void flatten(struct flat_curve *flat, unsigned bits, double value) {
+    encoder_init(&flat->encoder, SRGB, bits);
+    for (int i = 0; i < ENCODER_KNOTS; i++) flat->encoder.knot[i] = value;
+    flat->beyond = value;
+}
+
+/* So what is false is believed, but where the true curve, at most 1.23e-7 above its chord, could be on the other side of
+ * a step. */
+static void the_knots_decide_but_next_to_a_step(void **state) {
+    (void)state;
+    static struct flat_curve inside, next;
+    for (unsigned bits = 8; bits <= 16; bits += 8)
+        for (int code = 40; code < 200; code += 53)
+            for (int side = -1; side <= 1; side += 2) {
+                const double step = (code + 0.5 * side) / ((1u << bits) - 1);
+                flatten(&inside, bits, step - side * 1.6e-7);
+                flatten(&next, bits, step - side * 1.23e-7);
+                for (int i = 2; i < 512; i++) {
+                    const float linear = (float)i / 512;
+                    assert_int_equal(quick_code(&inside.encoder, linear), code);
+                    assert_int_equal(quick_code(&next.encoder, linear), encode_channel(linear, SRGB, bits));
+                }
+            }
+}
+
+static void the_knots_are_not_asked_below_the_knee_nor_from_one(void **state) {
+    (void)state;
+    static struct flat_curve flat;
+    flatten(&flat, 16, 77 / 65535.0);
+    assert_int_equal(quick_code(&flat.encoder, 0.0031307f), 2651);
+    assert_int_equal(quick_code(&flat.encoder, 0.0031309f), 77);
+    assert_int_equal(quick_code(&flat.encoder, 0x1.fffffep-1f), 77);
+    assert_int_equal(quick_code(&flat.encoder, 1.0f), 65535);
+}
+
 /* ---- Rows of bytes ---- */
 
 static void sixteen_bits_have_the_high_byte_first(void **state) {
@@ -179,7 +220,7 @@ static void eight_bits_have_one_byte_each(void **state) {
 enum { ROWS = sizeof rows / sizeof *rows, FORMATS = sizeof formats / sizeof *formats };
 
 int main(void) {
-    struct CMUnitTest tests[ROWS + 2 * FORMATS + 3];
+    struct CMUnitTest tests[ROWS + 2 * FORMATS + 5];
     size_t n = 0;
     for (size_t i = 0; i < ROWS; i++)
         tests[n++] = (struct CMUnitTest){rows[i].name, check_row, NULL, NULL, &rows[i]};
@@ -191,6 +232,8 @@ int main(void) {
         tests[n++] = (struct CMUnitTest){names[2 * i + 1], check_random, NULL, NULL, &formats[i]};
     }
     tests[n++] = (struct CMUnitTest)cmocka_unit_test(the_knots_are_on_the_curve);
+    tests[n++] = (struct CMUnitTest)cmocka_unit_test(the_knots_decide_but_next_to_a_step);
+    tests[n++] = (struct CMUnitTest)cmocka_unit_test(the_knots_are_not_asked_below_the_knee_nor_from_one);
     tests[n++] = (struct CMUnitTest)cmocka_unit_test(sixteen_bits_have_the_high_byte_first);
     tests[n++] = (struct CMUnitTest)cmocka_unit_test(eight_bits_have_one_byte_each);
     return cmocka_run_group_tests_name("encode", tests, NULL, NULL);

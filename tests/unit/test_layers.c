@@ -115,7 +115,32 @@ static void test_planar_depth(void **state) {
     monge_layers_free(layers);
 }
 
+/* From behind, right before the eye, the side of a slanting plane that is seen. */
+static void test_slanting(void **state) {
+    (void)state;
+    struct monge_layers *layers = render_good("camera: {eye: [0, 0, 0.5], look_at: [0, 0, 0], fov: 20}\n"
+                                              "scene: [{plane: {normal: [1, 0, -1]}}]\n",
+                                              1, 1);
+    assert_near((double)monge_layers_depth(layers)[0], 0.5, 1e-6, "depth");
+    assert_vec3_near(normal_at(layers, 0), vec3_scale((vec3){-1, 0, 1}, sqrt(0.5)), 2e-5, "normal");
+    monge_layers_free(layers);
+}
+
 /* ---- Shadows ---- */
+
+/* In the plane of the surface there is no light, and beyond the first ones none is told of. */
+static void test_lights_without_a_bit(void **state) {
+    (void)state;
+    static char text[8000];
+    const int head = snprintf(text, sizeof text, ORTHOGRAPHIC "scene: [{plane: {}}]\nlights:\n");
+    size_t used = (size_t)head;
+    for (int i = 0; i < MONGE_LAYER_LIGHTS + 2; i++)
+        used += (size_t)snprintf(text + used, sizeof text - used, "  - point: {at: [5, %d, %d]}\n", i,
+                                 i < MONGE_LAYER_LIGHTS ? 0 : 7);
+    struct monge_layers *layers = render_good(text, 1, 1);
+    assert_int_equal(monge_layers_lights(layers)[0], 0);
+    monge_layers_free(layers);
+}
 
 static void test_shadow(void **state) {
     (void)state;
@@ -515,6 +540,8 @@ int main(void) {
         cmocka_unit_test(test_perspective),
         cmocka_unit_test(test_orthographic),
         cmocka_unit_test(test_planar_depth),
+        cmocka_unit_test(test_slanting),
+        cmocka_unit_test(test_lights_without_a_bit),
         cmocka_unit_test(test_shadow),
         cmocka_unit_test(test_shadow_against_pictures),
         cmocka_unit_test(test_regions),

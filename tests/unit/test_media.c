@@ -98,6 +98,40 @@ static void bodies_that_end_together_by_their_number(void **state) {
     }
 }
 
+/* Within an instance they are told apart by their own numbers, beside it by the instance's. */
+static void bodies_of_instances_by_the_outermost_number(void **state) {
+    (void)state;
+    struct world w;
+    world_begin(&w,
+                "define:\n"
+                "  inner:\n"
+                "    objects:\n"
+                "      - {sphere: {}, material: {index: 1.2}}\n"
+                "      - {sphere: {}, material: {index: 1.1}}\n"
+                "      - {for: {i: 16}, square: {center: [9 + i, 0, 0]}}\n" /* makes it worth an instance */
+                "  outer:\n"
+                "    objects:\n"
+                "      - {sphere: {}, material: {index: 1.3}}\n"
+                "      - use: inner\n"
+                "      - {sphere: {}, material: {index: 1.4}}\n"
+                "scene:\n"
+                "  - {sphere: {}, material: {index: 1.6}}\n"
+                "  - use: outer\n"
+                "  - {sphere: {}, material: {index: 1.5}}\n"
+                "  - use: inner\n");
+    assert_around(&w, up, 8, (const double[]){1.6, 1.3, 1.2, 1.1, 1.4, 1.5, 1.2, 1.1});
+    unload(&w.loaded);
+}
+
+static void on_a_surface_is_outside(void **state) {
+    (void)state;
+    struct world w;
+    world_begin(&w, "scene: [{plane: {}}, {box: {min: [-1, -1, 0], max: [1, 1, 1]}}]\n");
+    assert_around(&w, up, 0, NULL);
+    assert_around(&w, (ray){{0, 0, 0}, {1, 0, -1}}, 0, NULL);
+    unload(&w.loaded);
+}
+
 /* Of more than fit the outermost are forgotten. */
 static void the_innermost_of_many(void **state) {
     (void)state;
@@ -160,6 +194,8 @@ int main(void) {
         cmocka_unit_test(by_where_the_ray_leaves),
         cmocka_unit_test(bodies_of_one_place_by_their_number),
         cmocka_unit_test(bodies_that_end_together_by_their_number),
+        cmocka_unit_test(bodies_of_instances_by_the_outermost_number),
+        cmocka_unit_test(on_a_surface_is_outside),
         cmocka_unit_test(the_innermost_of_many),
         cmocka_unit_test(in_and_out_again),
     };

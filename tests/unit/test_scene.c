@@ -300,6 +300,59 @@ static void a_quadric_takes_its_coefficients(void **state) {
     unload(&l);
 }
 
+/* The box of what is left of each form, open or closed. */
+static void forms_reach_as_far_as_they_do(void **state) {
+    (void)state;
+    static const struct {
+        const char *shape;
+        double across, bottom, top;
+        bool may_open;
+    } want[] = {{"sphere", 1, -1, 1, false},      {"box", 0.5, -0.5, 0.5, false},
+                {"cylinder", 1, -0.5, 0.5, true}, {"cone", 1, -1, 0, true},
+                {"paraboloid", 1, 0, 1, true},    {"hyperboloid", 1.4142135623730951, -1, 1, true}};
+    for (size_t i = 0; i < COUNT(want); i++)
+        for (int open = 0; open <= want[i].may_open; open++) {
+            char text[200];
+            struct loaded l;
+            snprintf(text, sizeof text, "scene: [{%s: {%s}, transform: {scale: [1, 2, 1]}}]", want[i].shape,
+                     open ? "open: true" : "");
+            load_good(&l, text);
+            const box3 extent = l.scene.primitives.quadrics[0].form->extent;
+            const double a = want[i].across;
+            assert_vec3_near(extent.min, (vec3){-a, -a, want[i].bottom}, 3e-16, want[i].shape);
+            assert_vec3_near(extent.max, (vec3){a, a, want[i].top}, 3e-16, want[i].shape);
+            unload(&l);
+        }
+}
+
+/* Whichever is the largest, of whichever sign and size: it comes to 1.5, as the others do beside it. */
+static void a_quadric_is_scaled_by_a_power_of_two(void **state) {
+    (void)state;
+    static const char *const keys[] = {"xx", "yy", "zz", "xy", "yz", "xz", "x", "y", "z", "constant"};
+    static const double sizes[] = {0x1p-600, -0x1p-40, -1, 0x1p600};
+    for (size_t k = 0; k < COUNT(keys); k++)
+        for (size_t i = 0; i < COUNT(sizes); i++) {
+            char text[200];
+            struct loaded l;
+            snprintf(text, sizeof text, "scene: [{quadric: {%s: %.17g, %s: %.17g}}]", keys[k], 1.5 * sizes[i],
+                     keys[(k + 1) % COUNT(keys)], 0.25 * sizes[i]);
+            load_good(&l, text);
+            const struct quadric_form *f = l.scene.primitives.quadrics[0].form;
+            const double got[] = {f->xx, f->yy, f->zz, f->xy, f->yz, f->zx, f->x, f->y, f->z, f->constant};
+            assert_true(got[k] == copysign(1.5, sizes[i]));
+            assert_true(got[(k + 1) % COUNT(keys)] == copysign(0.25, sizes[i]));
+            unload(&l);
+        }
+}
+
+static void balls_of_any_size_are_spheres(void **state) {
+    (void)state;
+    struct loaded l;
+    load_good(&l, "scene: [{sphere: {radius: 1.1e-100}}, {sphere: {radius: 0.9e100}}]");
+    assert_int_equal(l.scene.primitives.sphere_count, 2);
+    unload(&l);
+}
+
 /* A hundred thousand spheres in seven lines: the description stays as small as the text. */
 static void aliases_take_memory_once(void **state) {
     (void)state;
@@ -865,6 +918,9 @@ int main(void) {
         cmocka_unit_test(planes_and_discs_face_along_their_normal),
         cmocka_unit_test(numbers_follow_the_file_through_the_kinds),
         cmocka_unit_test(a_quadric_takes_its_coefficients),
+        cmocka_unit_test(forms_reach_as_far_as_they_do),
+        cmocka_unit_test(a_quadric_is_scaled_by_a_power_of_two),
+        cmocka_unit_test(balls_of_any_size_are_spheres),
         cmocka_unit_test(aliases_take_memory_once),
         cmocka_unit_test(one_default_material_serves_all),
         cmocka_unit_test(an_alias_of_a_named_material_is_like_it),

@@ -71,6 +71,23 @@ static const struct row rows[] = {
      "material: {diffuse: black, specular: [1, 1, 1], shininess: 80.2}}]",
      {0, 0, 0},
      0},
+    {"nor just there: 100 * (1 - 0.6)",
+     DOWN_Z
+     "lights: [{point: {at: [0.8, 0, 0.6], color: [1e24, 1e24, 1e24]}}]\nscene: [{plane: {}, material: "
+     "{diffuse: black, specular: [1, 1, 1], shininess: 100}}]",
+     {0, 0, 0},
+     0},
+    {"no highlight at a right angle to the mirrored light",
+     DARK "camera: {eye: [-5, 0, 5], direction: [1, 0, -1]}\nlights: [{point: {at: [-3, 0, 3]}}]\nscene: "
+          "[{plane: {}, material: {diffuse: black, specular: white, shininess: 0}}]",
+     {0, 0, 0},
+     0},
+    {"no highlight by a light in the plane of the surface",
+     DARK
+     "camera: {eye: [-5, 0, 5], direction: [1, 0, -1]}\nrender: {shadow: 1}\nlights: [{point: {at: [3, 0, "
+     "0]}}]\nscene: [{plane: {}, material: {diffuse: black, specular: white, shininess: 2}}]",
+     {0, 0, 0},
+     0},
     {"two lights add up",
      DOWN_Z "lights: [{point: {at: [0, 0, 10]}}, {point: {at: [0, 0, 20], color: [0.5, 0, 0]}}]\nscene: "
             "[{plane: {}, material: {diffuse: [0.2, 0.2, 0.2]}}]",
@@ -219,6 +236,27 @@ static const struct row rows[] = {
             "{diffuse: [1, 1, 1]}}\n  - {disc: {center: [2, 0, 2], normal: [1, 0, 1], radius: 0.5}, "
             "material: {diffuse: black, refraction: 1.1e-5}}",
      {0.77781745930520227, 0.77781745930520227, 0.77781745930520227},
+     0},
+    {"what weighs just that is followed",
+     DOWN_Z
+     "lights: [{ambient: {color: [1e5, 1e5, 1e5]}}]\nscene:\n  - {plane: {}, material: {diffuse: black, "
+     "reflection: 1e-5}}\n  - {plane: {point: [0, 0, 9], normal: [0, 0, -1]}, material: " GLOW(0.2, 0.4,
+                                                                                               0.6) "}",
+     {0.2, 0.4, 0.6},
+     0},
+    {"through glass of just that light counts: cos(45)",
+     DOWN_Z "lights: [{point: {at: [4, 0, 4], color: [1e5, 1e5, 1e5]}}]\nscene:\n  - {plane: {}, material: "
+            "{diffuse: [1, 1, 1]}}\n  - {disc: {center: [2, 0, 2], normal: [1, 0, 1], radius: 0.5}, "
+            "material: {diffuse: black, refraction: 1e-5}}",
+     {0.70710678118654757, 0.70710678118654757, 0.70710678118654757},
+     0},
+    {"lights however far away: no surface is in its own shadow",
+     DARK
+     "camera: {eye: [4, 2, 7], direction: [-4, -2, -7]}\nlights: [{point: {at: [4e6, 2e6, 7e6]}}, {point: "
+     "{at: [4e9, 2e9, 7e9]}}, {point: {at: [4e12, 2e12, 7e12]}}, {point: {at: [4e15, 2e15, 7e15]}}]\nscene: "
+     "[{sphere: {radius: 1.1}, transform: {scale: [1, 1.3, 0.7]}, material: {diffuse: black, "
+     "specular: [0.1, 0.1, 0.1], shininess: 0}}]",
+     {0.4, 0.4, 0.4},
      0},
     {"a body of index 1 is not seen",
      DOWN_Z GLOW_LIGHT "scene:\n  - {sphere: {}, material: {diffuse: black, refraction: 1, index: 1}}\n" WALL(
@@ -383,6 +421,18 @@ static void test_camera_in_nested_glass(void **state) {
     if (!(fabs(got - want) < 1e-6)) fail_msg("arrives at x = %.9f, want %.9f", got, want);
 }
 
+/* At the critical angle itself light leaves along the surface: the sine is 4/5 at an index of 5/4, exactly. */
+static void test_critical_angle(void **state) {
+    (void)state;
+    double color[3];
+    render_probe("image: {size: [1, 1], samples: 1, background: [0, 0, 1]}\n"
+                 "camera: {eye: [0, 0, -1], direction: [0.8, 0, 0.6]}\n" GLOW_LIGHT
+                 "scene:\n  - {plane: {}, material: {diffuse: black, refraction: 0.75, index: 1.25}}\n" WALL(
+                     "[0, 0, -9]", 1, 0, 0),
+                 color);
+    assert_true(fabs(color[0]) < 1e-6 && fabs(color[2] - 0.75) < 1e-6);
+}
+
 /* From water, light beyond the critical angle asin(1/1.33) = 48.75 degrees is mirrored whole. */
 static void test_total_reflection(void **state) {
     (void)state;
@@ -415,6 +465,7 @@ int main(void) {
         cmocka_unit_test(test_same_index_inside),
         cmocka_unit_test(test_mirrored_body),
         cmocka_unit_test(test_camera_in_nested_glass),
+        cmocka_unit_test(test_critical_angle),
         cmocka_unit_test(test_total_reflection),
     };
     for (size_t i = 0; i < sizeof more / sizeof *more; i++) tests[count++] = more[i];

@@ -103,6 +103,7 @@ static void any_hit_counts_too(void **state) {
     assert_true(watch.stop == ACCEL_GOES_ON);
     accel_any(n.accel, &watch, (ray){{2.99, 2.99, 20}, {0, 0, -1}}, 0, INFINITY);
     assert_true(watch.stop == ACCEL_TOO_MANY_ENTRIES);
+    assert_int_equal(watch.number, 1);
     nest_end(&n);
 }
 
@@ -119,6 +120,10 @@ static void entries_are_of_one_question(void **state) {
     assert_false(accel_nearest(n.accel, &watch, at_ball, 0, INFINITY, &hit));
     assert_true(accel_any(n.accel, &watch, (ray){{60, 0, 20}, {0, 0, -1}}, 0, INFINITY));
     assert_true(accel_nearest(n.accel, NULL, at_ball, 0, INFINITY, &hit));
+    nest_end(&n);
+    nest_begin(&n, NEST("3", "16", CLAY), true);
+    assert_false(accel_nearest_clear(n.accel, &watch, at_ball, 0, INFINITY, &hit));
+    assert_true(accel_nearest_clear(n.accel, NULL, at_ball, 0, INFINITY, &hit));
     nest_end(&n);
 }
 
