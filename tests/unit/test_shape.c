@@ -115,6 +115,8 @@ static struct crossing_row {
     {"disc, NaN origin", DISC, {{NAN, 0, -3}, {0, 0, 1}}, MISS},
     {"plane far out", PLANE, {{1e6, 1e6, -3}, {0, 0, 1}}, 1, {{3, SIDE}}},
     {"plane in parallel", PLANE, {{0, 0, 1}, {1, 1, 0}}, MISS},
+    {"plane in parallel, above", PLANE, {{0, 0, -1}, {1, 1, 0}}, MISS},
+    {"square in parallel, above", SQUARE, {{0, 0, -1}, {1, 0, 0}}, MISS},
     {"plane, NaN direction", PLANE, {{0, 0, 1}, {1, NAN, -1}}, MISS},
 
     {"ellipsoid, long way", STRETCHED, {{0, 0, -5}, {0, 0, 1}}, 2, {{2, SIDE}, {8, SIDE}}},
@@ -230,6 +232,53 @@ static void check_edges(void **state) {
         met += check_both_ways(TUBE, (vec3){0, out, 0.5 * z}, (vec3){0, way.x, way.z});
     }
     assert_true(met > 20);
+}
+
+/* ---- The edge of a square ---- */
+
+static vec3 turned(vec3 v, bool turn) { return turn ? (vec3){v.y, v.x, v.z} : v; }
+
+static bool meets(const struct alone *a, ray r, double t) {
+    struct crossing c[SHAPE_MAX_CROSSINGS];
+    if (shape_crossings(&a->p, a->ref, r, c) == 0) return false;
+    assert_true(c[0].t == t);
+    return true;
+}
+
+/* A ray from org_z to z = height, which it crosses at (x, 0), or (0, x), at t. On the way it goes across by `across`. */
+static bool meets_slanted(double height, double x, double org_z, double across, double t, bool turn) {
+    struct alone a;
+    const vec3 d = {across / t, 0, (height - org_z) / t};
+    alone_flat(&a, FLAT_SQUARE, affine_translate((vec3){0, 0, height}));
+    return meets(&a, (ray){turned((vec3){x - across, 0, org_z}, turn), turned(d, turn)}, t);
+}
+
+/* A ray straight down to a square at `at`, at x of its own. */
+static bool meets_below(double at, double x, bool turn) {
+    struct alone a;
+    alone_flat(&a, FLAT_SQUARE, affine_translate(turned((vec3){at, 0, 0}, turn)));
+    return meets(&a, (ray){turned((vec3){at + x, 0, 3}, turn), {0, 0, -1}}, 3);
+}
+
+/* It goes as far as rounding may: by 16 units of all numbers that x is made from, and of those that t is, as often as
+ * the ray runs across; but by no more than a hundredth. */
+static void check_edge_of_square(void **state) {
+    (void)state;
+    const double unit = 16 * 0x1p-52, across = 0x1p38;
+    for (int i = 0; i < 32; i++) {
+        const double to = i & 1 ? across : -across, side = i & 2 ? 1 : -1, t = i & 4 ? 2 : -2,
+                     z = i & 8 ? 1 : -1;
+        const bool turn = i & 16;
+        const double past = unit * (across + across) + unit * (3 + 2 + 1) * (across / 2), last = 0x1p-13;
+        assert_true(meets_slanted(z, side * (0.5 + past - last), 3 * z, to, t, turn));
+        assert_false(meets_slanted(z, side * (0.5 + past + last), 3 * z, to, t, turn));
+        assert_true(meets_slanted(z, side * (0.5 + 10 * 0x1p-10), 3 * z, 8 * to, t, turn));
+        assert_false(meets_slanted(z, side * (0.5 + 11 * 0x1p-10), 3 * z, 8 * to, t, turn));
+        /* to the last unit: |at + x| + |at| is 2^20 */
+        const double just = unit * 0x1p20, at = 0x1p19 - side * (0.25 + 0.5 * just);
+        assert_true(meets_below(at, side * (0.5 + just), turn));
+        assert_false(meets_below(at, side * (0.5 + just + 0x1p-33), turn));
+    }
 }
 
 static struct first_row {
@@ -515,7 +564,7 @@ static void check_instance(void **state) {
 
 int main(void) {
     struct CMUnitTest tests[COUNT(crossing_rows) + COUNT(first_rows) + COUNT(surface_rows) +
-                            COUNT(contains_rows) + COUNT(bounds_rows) + 7];
+                            COUNT(contains_rows) + COUNT(bounds_rows) + 8];
     size_t n = 0;
     for (size_t i = 0; i < COUNT(crossing_rows); i++)
         tests[n++] =
@@ -525,6 +574,7 @@ int main(void) {
     for (size_t i = 0; i < COUNT(surface_rows); i++)
         tests[n++] = (struct CMUnitTest){surface_rows[i].name, check_surface, NULL, NULL, &surface_rows[i]};
     tests[n++] = (struct CMUnitTest){"edges, from either side", check_edges, NULL, NULL, NULL};
+    tests[n++] = (struct CMUnitTest){"the edge of a square", check_edge_of_square, NULL, NULL, NULL};
     tests[n++] = (struct CMUnitTest){"no end, along any direction", check_endless_support, NULL, NULL, NULL};
     tests[n++] = (struct CMUnitTest){"an instance", check_instance, NULL, NULL, NULL};
     tests[n++] = (struct CMUnitTest){"the apex of a cone has a normal", check_apex, NULL, NULL, NULL};
