@@ -1,25 +1,6 @@
 /* Shapes at places where the answer is known in closed form. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
+#include "near.h"
 #include "shape_forms.h"
-
-#define COUNT(rows) (sizeof(rows) / sizeof *(rows))
-
-static void assert_near(double got, double want, double tolerance, const char *what) {
-    if (!(fabs(got - want) <= tolerance) && got != want)
-        fail_msg("%s: got %.17g, want %.17g", what, got, want);
-}
-
-static void assert_vec3_near(vec3 got, vec3 want, double tolerance, const char *what) {
-    if (!(vec3_max_abs(vec3_sub(got, want)) <= tolerance))
-        fail_msg("%s: got (%.17g, %.17g, %.17g), want (%.17g, %.17g, %.17g)", what, got.x, got.y, got.z,
-                 want.x, want.y, want.z);
-}
 
 /* The shapes that the tables name; the canonical one of each kind. */
 enum { SPHERE = FORM_COUNT, SQUARE, DISC, PLANE, BALL_2, SLANTED, MIRRORED, STRETCHED };
@@ -234,6 +215,26 @@ static void check_edges(void **state) {
     assert_true(met > 20);
 }
 
+/* A ray in any face of a box misses it, and is not inside; one within, as close as can be told, meets it. */
+static void check_faces(void **state) {
+    (void)state;
+    struct crossing c[SHAPE_MAX_CROSSINGS];
+    struct alone a;
+    make(&a, CUBE);
+    for (int i = 0; i < 12; i++) {
+        const int axis = i % 3, along = (axis + 1 + i / 6) % 3;
+        const double side = i / 3 % 2 ? 0.5 : -0.5;
+        double org[] = {0, 0, 0}, dir[] = {0, 0, 0};
+        org[along] = -3, dir[along] = 1;
+        for (int k = 0; k < 3; k++) {
+            org[axis] = k == 0 ? nextafter(side, 0) : k == 1 ? side : nextafter(side, 2 * side);
+            const ray r = {{org[0], org[1], org[2]}, {dir[0], dir[1], dir[2]}};
+            assert_int_equal(shape_crossings(&a.p, a.ref, r, c), k == 0 ? 2 : 0);
+            assert_int_equal(shape_contains(&a.p, a.ref, ray_at(r, 3)), k == 0);
+        }
+    }
+}
+
 /* ---- The edge of a square ---- */
 
 static vec3 turned(vec3 v, bool turn) { return turn ? (vec3){v.y, v.x, v.z} : v; }
@@ -295,6 +296,8 @@ static struct first_row {
     {"t_min is left out", SPHERE, {{0, 0, -3}, {0, 0, 1}}, 2, INFINITY, true, 4},
     {"t_max belongs to the window", SPHERE, {{0, 0, -3}, {0, 0, 1}}, 0, 2, true, 2},
     {"before the window's end", SPHERE, {{0, 0, -3}, {0, 0, 1}}, 0, 1.999, false, 0},
+    {"t_min at its exit", SPHERE, {{0, 0, -3}, {0, 0, 1}}, 4, INFINITY, false, 0},
+    {"t_min before its exit", SPHERE, {{0, 0, -3}, {0, 0, 1}}, 3.999, 4, true, 4},
     {"window within the sphere", SPHERE, {{0, 0, -3}, {0, 0, 1}}, 2.5, 3.5, false, 0},
     {"square", SQUARE, {{0, 0, -3}, {0, 0, 1}}, 0, 3, true, 3},
     {"square before t_min", SQUARE, {{0, 0, -3}, {0, 0, 1}}, 3, INFINITY, false, 0},
@@ -388,6 +391,18 @@ static void check_apex(void **state) {
         if (i == 2)
             assert_true(vec3_dot(got.normal, rays[i].dir) < 0); /* at the apex itself it faces the ray */
     }
+}
+
+/* Of a sphere so small that the ray meets its centre there is no normal either. */
+static void check_small_sphere(void **state) {
+    (void)state;
+    struct alone a;
+    alone_sphere(&a, (vec3){1e6, 0, 0}, 1e-15);
+    const ray r = {{1e6 - 3, 0, 0}, {2, 0, 0}};
+    const struct surface got = shape_surface(&a.p, a.ref, r, (struct crossing){1.5, SHAPE_SIDE});
+    assert_vec3_near(got.normal, (vec3){-1, 0, 0}, 0, "normal");
+    assert_vec3_near(got.point, (vec3){1e6, 0, 0}, 0, "point");
+    assert_near(got.error, 16 * 0x1p-52 * 1e6, 1e-15, "error");
 }
 
 /* As far as the shape goes a ray may run by it; what has no end adds nothing, and no infinity. */
@@ -528,6 +543,85 @@ static void check_bounds_of_scaled_hits(void **state) {
     }
 }
 
+/* ---- Room for rounding ---- */
+
+/* A map of whole numbers with an inverse of whole numbers, and powers of two: nothing here is rounded. */
+static affine exact_map(struct random *r, affine *inverse) {
+    affine map = affine_scale((vec3){1, -2, 0.25});
+    *inverse = affine_scale((vec3){1, -0.5, 4});
+    for (int i = 0; i < 4; i++) {
+        const unsigned to = random_below(r, 3), from = (to + 1 + random_below(r, 2)) % 3;
+        affine step = AFFINE_IDENTITY, back = AFFINE_IDENTITY;
+        step.m[to][from] = random_below(r, 5) - 2.0;
+        back.m[to][from] = -step.m[to][from];
+        map = affine_compose(step, map);
+        *inverse = affine_compose(*inverse, back);
+    }
+    const vec3 by = {random_below(r, 9) - 4.0, random_below(r, 9) - 4.0, random_below(r, 9) - 4.0};
+    *inverse = affine_compose(*inverse, affine_translate(vec3_neg(by)));
+    return affine_compose(affine_translate(by), map);
+}
+
+static box3 corners_of(box3 box, const affine *map) {
+    box3 all = BOX3_EMPTY;
+    for (int i = 0; i < 8; i++)
+        all = box3_add_point(
+            all, affine_point(map, (vec3){i & 1 ? box.max.x : box.min.x, i & 2 ? box.max.y : box.min.y,
+                                          i & 4 ? box.max.z : box.min.z}));
+    return all;
+}
+
+/* That `got` is larger on each side by 16 units of all numbers that bring a point to object space and back. */
+static void check_room(box3 got, box3 exact, const affine *map, const affine *inverse) {
+    const double *low[] = {&exact.min.x, &exact.min.y, &exact.min.z},
+                 *high[] = {&exact.max.x, &exact.max.y, &exact.max.z};
+    const double *min[] = {&got.min.x, &got.min.y, &got.min.z}, *max[] = {&got.max.x, &got.max.y, &got.max.z};
+    double there[3];
+    for (int i = 0; i < 3; i++) {
+        there[i] = fabs(inverse->m[i][3]);
+        for (int j = 0; j < 3; j++) there[i] += fabs(inverse->m[i][j]) * fmax(fabs(*low[j]), fabs(*high[j]));
+    }
+    for (int i = 0; i < 3; i++) {
+        double terms = fabs(map->m[i][3]);
+        for (int j = 0; j < 3; j++) terms += fabs(map->m[i][j]) * there[j];
+        const double want = 16 * 0x1p-52 * terms, last = 0x1p-52 * fmax(fabs(*low[i]), fabs(*high[i]));
+        assert_near(*low[i] - *min[i], want, last, "room below");
+        assert_near(*max[i] - *high[i], want, last, "room above");
+    }
+}
+
+static void check_room_for_rounding(void **state) {
+    (void)state;
+    struct random r = random_begin();
+    for (int i = 0; i < 1000; i++) {
+        struct alone a;
+        affine inverse;
+        const affine map = exact_map(&r, &inverse);
+        a = (struct alone){.ref = primitive_ref_make(PRIMITIVE_QUADRIC, 0),
+                           .quadric = {inverse, map, &forms[CUBE]}};
+        a.p.quadrics = &a.quadric;
+        check_room(shape_bounds(&a.p, a.ref), corners_of(forms[CUBE].extent, &map), &map, &inverse);
+        a = (struct alone){.ref = primitive_ref_make(PRIMITIVE_FLAT, 0), .flat = {inverse, map, FLAT_SQUARE}};
+        a.p.flats = &a.flat;
+        check_room(shape_bounds(&a.p, a.ref), corners_of((box3)BOX(-0.5, -0.5, 0, 0.5, 0.5, 0), &map), &map,
+                   &inverse);
+        const vec3 from = {random_below(&r, 9) - 6.0, random_below(&r, 9) - 6.0, random_below(&r, 9) - 6.0};
+        const box3 box = {from, vec3_add(from, (vec3){1, random_below(&r, 3), 4})};
+        const struct instance placed = {inverse, map, NULL, 0};
+        check_room(shape_placed_bounds(&placed, box), corners_of(box, &map), &map, &inverse);
+        const box3 none = shape_placed_bounds(&placed, BOX3_EMPTY);
+        assert_memory_equal(&none, &BOX3_EMPTY, sizeof none);
+        /* of a sphere in the world, of its own numbers alone */
+        const double radius = 1 + random_below(&r, 4),
+                     far = fmax(fabs(from.x), fmax(fabs(from.y), fabs(from.z)));
+        alone_sphere(&a, from, radius);
+        const box3 got = shape_bounds(&a.p, a.ref);
+        const vec3 room = vec3_all(radius + 16 * 0x1p-52 * (far + radius));
+        assert_vec3_near(got.min, vec3_sub(from, room), 0x1p-52 * (far + radius), "sphere, min");
+        assert_vec3_near(got.max, vec3_add(from, room), 0x1p-52 * (far + radius), "sphere, max");
+    }
+}
+
 /* What has no end reaches endlessly, along an axis too. */
 static void check_endless_support(void **state) {
     (void)state;
@@ -564,7 +658,7 @@ static void check_instance(void **state) {
 
 int main(void) {
     struct CMUnitTest tests[COUNT(crossing_rows) + COUNT(first_rows) + COUNT(surface_rows) +
-                            COUNT(contains_rows) + COUNT(bounds_rows) + 8];
+                            COUNT(contains_rows) + COUNT(bounds_rows) + 11];
     size_t n = 0;
     for (size_t i = 0; i < COUNT(crossing_rows); i++)
         tests[n++] =
@@ -575,6 +669,9 @@ int main(void) {
         tests[n++] = (struct CMUnitTest){surface_rows[i].name, check_surface, NULL, NULL, &surface_rows[i]};
     tests[n++] = (struct CMUnitTest){"edges, from either side", check_edges, NULL, NULL, NULL};
     tests[n++] = (struct CMUnitTest){"the edge of a square", check_edge_of_square, NULL, NULL, NULL};
+    tests[n++] = (struct CMUnitTest){"the faces of a box", check_faces, NULL, NULL, NULL};
+    tests[n++] = (struct CMUnitTest){"a sphere like a point", check_small_sphere, NULL, NULL, NULL};
+    tests[n++] = (struct CMUnitTest){"room for rounding", check_room_for_rounding, NULL, NULL, NULL};
     tests[n++] = (struct CMUnitTest){"no end, along any direction", check_endless_support, NULL, NULL, NULL};
     tests[n++] = (struct CMUnitTest){"an instance", check_instance, NULL, NULL, NULL};
     tests[n++] = (struct CMUnitTest){"the apex of a cone has a normal", check_apex, NULL, NULL, NULL};
