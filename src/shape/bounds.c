@@ -4,8 +4,8 @@
 /* Hits follow object_from_world, the box world_from_object, and each is the other's inverse only to
  * rounding: a point p is hit up to |world_from_object(object_from_world(p)) - p| outside of `box`. */
 static box3 bounds_pad(box3 box, const affine *world_from_object, const affine *object_from_world) {
-    const vec3 min = vec3_abs(box.min), max = vec3_abs(box.max);
-    const vec3 size = {box3_upper(min.x, max.x), box3_upper(min.y, max.y), box3_upper(min.z, max.z)};
+    const vec3 size = {box3_upper(-box.min.x, box.max.x), box3_upper(-box.min.y, box.max.y),
+                       box3_upper(-box.min.z, box.max.z)};
     affine gap = affine_compose(*world_from_object, *object_from_world);
     for (int i = 0; i < 3; i++) gap.m[i][i] -= 1.0;
     const vec3 rounding = affine_magnitude(world_from_object, affine_magnitude(object_from_world, size));
@@ -120,9 +120,9 @@ static double quadric_support(const struct quadric *q, vec3 direction) {
     if (!box3_is_bounded(extent)) return INFINITY;
     double row[4];
     for (int i = 0; i < 4; i++) row[i] = vec3_dot(affine_column(q->world_from_object, i), direction);
-    const double x = row[0] * (row[0] > 0.0 ? extent.max.x : extent.min.x);
-    const double y = row[1] * (row[1] > 0.0 ? extent.max.y : extent.min.y);
-    const double z = row[2] * (row[2] > 0.0 ? extent.max.z : extent.min.z);
+    const double x = box3_upper(row[0] * extent.min.x, row[0] * extent.max.x);
+    const double y = box3_upper(row[1] * extent.min.y, row[1] * extent.max.y);
+    const double z = box3_upper(row[2] * extent.min.z, row[2] * extent.max.z);
     double most = x + y + z;
     if (form_is_upright(q->form))
         most = box3_lower(most, upright_support(q->form, row, extent.min.z, extent.max.z));

@@ -308,6 +308,8 @@ static struct first_row {
     {"cylinder, t_min at its entry", CYLINDER, {{-3, 0, 0}, {1, 0, 0}}, 2, INFINITY, true, 4},
     {"cylinder, t_min at its exit", CYLINDER, {{-3, 0, 0}, {1, 0, 0}}, 4, INFINITY, false, 0},
     {"cylinder, t_max at its entry", CYLINDER, {{-3, 0, 0}, {1, 0, 0}}, 0, 2, true, 2},
+    {"box, t_max at its entry", CUBE, {{-3, 0, 0}, {1, 0, 0}}, 0, 2.5, true, 2.5},
+    {"box, t_min at its exit", CUBE, {{-3, 0, 0}, {1, 0, 0}}, 3.5, 9, false, 0},
     {"cylinder past t_max", CYLINDER, {{-3, 0, 0}, {1, 0, 0}}, 0, 1.999, false, 0},
     {"cylinder, window within", CYLINDER, {{-3, 0, 0}, {1, 0, 0}}, 2, 3.999, false, 0},
     {"cylinder behind", CYLINDER, {{3, 0, 0}, {1, 0, 0}}, 0, INFINITY, false, 0},
@@ -403,24 +405,6 @@ static void check_small_sphere(void **state) {
     assert_vec3_near(got.normal, (vec3){-1, 0, 0}, 0, "normal");
     assert_vec3_near(got.point, (vec3){1e6, 0, 0}, 0, "point");
     assert_near(got.error, 16 * 0x1p-52 * 1e6, 1e-15, "error");
-}
-
-/* As far as the shape goes a ray may run by it; what has no end adds nothing, and no infinity. */
-static void check_endless(void **state) {
-    (void)state;
-    const vec3 axes[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-    for (size_t i = 0; i < COUNT(endless); i++)
-        for (int k = 0; k < 3; k++) {
-            struct alone a;
-            struct crossing crossing;
-            alone_quadric(&a, &endless[i], AFFINE_IDENTITY);
-            const ray r = {vec3_scale(axes[k], 9), vec3_neg(axes[k])};
-            if (!shape_first_crossing(&a.p, a.ref, r, 0, INFINITY, &crossing)) continue;
-            const struct surface got = shape_surface(&a.p, a.ref, r, crossing);
-            assert_vec3_near(got.point, axes[k], 1e-15, "point");
-            assert_vec3_near(got.normal, axes[k], 1e-15, "normal");
-            assert_true(got.error > 0 && got.error < 1e-13);
-        }
 }
 
 static struct contains_row {
@@ -635,6 +619,62 @@ static void check_endless_support(void **state) {
         }
 }
 
+/* As far as the shape goes a ray may run by it; what has no end adds nothing, and no infinity. */
+static void check_endless(void **state) {
+    (void)state;
+    struct random r = random_begin();
+    for (unsigned i = 0; i < 100 * COUNT(endless) * 6; i++) {
+        const struct quadric_form *form = &endless[i % COUNT(endless)];
+        const int face = (int)(i / COUNT(endless) % 6), axis = face / 2;
+        const vec3 width = vec3_sub(form->extent.max, form->extent.min);
+        const double widths[] = {width.x, width.y, width.z}, side = face % 2 ? 1 : -1;
+        if (isinf(widths[axis])) continue;
+        struct alone a = {.ref = primitive_ref_make(PRIMITIVE_QUADRIC, 0), .quadric = {.form = form}};
+        a.p.quadrics = &a.quadric;
+        const affine map = a.quadric.world_from_object = exact_map(&r, &a.quadric.object_from_world);
+        const double *row = a.quadric.object_from_world.m[axis];
+        const vec3 out = vec3_scale((vec3){axis == 0, axis == 1, axis == 2}, side),
+                   point = affine_point(&map, out);
+        const ray to = {affine_point(&map, vec3_scale(out, 9)), affine_direction(&map, vec3_neg(out))};
+        const struct surface got =
+            shape_surface(&a.p, a.ref, to, (struct crossing){8, SHAPE_CUT_MIN_X + face});
+        const double world[] = {point.x, point.y, point.z};
+        double size = fabs(row[3]), slope2 = 0;
+        for (int j = 0; j < 3; j++) {
+            double far = fabs(world[j]);
+            for (int k = 0; k < 3; k++) far += isinf(widths[k]) ? 0 : fabs(map.m[j][k]) * widths[k];
+            size += fabs(row[j]) * far;
+            slope2 += row[j] * row[j];
+        }
+        const double want = 16 * 0x1p-52 * (size + 1 + 1) / sqrt(slope2);
+        assert_vec3_near(got.point, point, 0, "point");
+        assert_vec3_near(got.normal, vec3_scale((vec3){row[0], row[1], row[2]}, side / sqrt(slope2)), 1e-15,
+                         "normal");
+        assert_near(got.error, want, 1e-9 * want, "error");
+    }
+}
+
+/* Of what has no sections about z, no more is known than its extent: its corners reach farthest. */
+static void check_extents(void **state) {
+    (void)state;
+    struct random r = random_begin();
+    for (unsigned i = 0; i < 1000; i++) {
+        struct quadric_form form = leaning[i % COUNT(leaning)];
+        const vec3 from = {random_below(&r, 9) - 6.0, random_below(&r, 9) - 6.0, random_below(&r, 9) - 6.0};
+        form.extent = (box3){from, vec3_add(from, (vec3){1, 1 + random_below(&r, 3), 4})};
+        struct alone a = {.ref = primitive_ref_make(PRIMITIVE_QUADRIC, 0), .quadric = {.form = &form}};
+        a.p.quadrics = &a.quadric;
+        a.quadric.world_from_object = exact_map(&r, &a.quadric.object_from_world);
+        vec3 d = random_vec3(&r, -1, 1);
+        if (i % 4 == 0) d = vec3_mul(d, (vec3){i % 3 == 0, i % 3 == 1, i % 3 == 2});
+        const affine along =
+            affine_compose((affine){{{d.x, d.y, d.z, 0}, {0}, {0}}}, a.quadric.world_from_object);
+        assert_near(shape_support(&a.p, a.ref, d), corners_of(form.extent, &along).max.x, 1e-12, "reach");
+        check_room(shape_bounds(&a.p, a.ref), corners_of(form.extent, &a.quadric.world_from_object),
+                   &a.quadric.world_from_object, &a.quadric.object_from_world);
+    }
+}
+
 /* An instance is no shape: what it places is met elsewhere. */
 static void check_instance(void **state) {
     (void)state;
@@ -658,7 +698,7 @@ static void check_instance(void **state) {
 
 int main(void) {
     struct CMUnitTest tests[COUNT(crossing_rows) + COUNT(first_rows) + COUNT(surface_rows) +
-                            COUNT(contains_rows) + COUNT(bounds_rows) + 11];
+                            COUNT(contains_rows) + COUNT(bounds_rows) + 12];
     size_t n = 0;
     for (size_t i = 0; i < COUNT(crossing_rows); i++)
         tests[n++] =
@@ -672,6 +712,7 @@ int main(void) {
     tests[n++] = (struct CMUnitTest){"the faces of a box", check_faces, NULL, NULL, NULL};
     tests[n++] = (struct CMUnitTest){"a sphere like a point", check_small_sphere, NULL, NULL, NULL};
     tests[n++] = (struct CMUnitTest){"room for rounding", check_room_for_rounding, NULL, NULL, NULL};
+    tests[n++] = (struct CMUnitTest){"extents", check_extents, NULL, NULL, NULL};
     tests[n++] = (struct CMUnitTest){"no end, along any direction", check_endless_support, NULL, NULL, NULL};
     tests[n++] = (struct CMUnitTest){"an instance", check_instance, NULL, NULL, NULL};
     tests[n++] = (struct CMUnitTest){"the apex of a cone has a normal", check_apex, NULL, NULL, NULL};
