@@ -48,7 +48,7 @@ struct roots {
 
 /* The roots of a s^2 + 2 b s + c, without cancellation. A double root is none. */
 static inline struct roots roots_of(double a, double b, double c) {
-    const struct roots all = {1, -INFINITY, INFINITY}, none = {0, 0, 0};
+    const struct roots all = {1, -INFINITY, INFINITY}, none = {0};
     const double disc = b * b - a * c;
     if (!(disc > 0.0)) return disc <= 0.0 && (a < 0.0 || (a == 0.0 && c < 0.0)) ? all : none;
     const double q = b < 0.0 ? sqrt(disc) - b : -(b + sqrt(disc));

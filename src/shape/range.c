@@ -47,8 +47,8 @@ static struct range range_product(double factor, struct range a, struct range b)
 }
 
 /* The values of Q in the box; wider by the rounding, and where x y, y z or z x have a part in it. Rounding decides where
- * the parts of an end cancel: as much of them is above 0 then as below, so that the finite ends tell how large they are,
- * and axis_size the two that a part is made of. */
+ * the parts of an end cancel: as much of them is above 0 then as below, so that the finite ends of all but the constant tell
+ * how large they are, and axis_size the two that a part is made of. */
 static struct range form_range(const struct quadric_form *f, box3 box) {
     const struct range x = {box.min.x, box.max.x}, y = {box.min.y, box.max.y}, z = {box.min.z, box.max.z};
     const struct range parts[] = {
@@ -56,8 +56,7 @@ static struct range form_range(const struct quadric_form *f, box3 box) {
         range_product(f->xy, x, y), range_product(f->yz, y, z), range_product(f->zx, z, x),
     };
     struct range sum = {f->constant, f->constant};
-    double most =
-        fabs(f->constant) + axis_size(f->xx, f->x, x) + axis_size(f->yy, f->y, y) + axis_size(f->zz, f->z, z);
+    double most = axis_size(f->xx, f->x, x) + axis_size(f->yy, f->y, y) + axis_size(f->zz, f->z, z);
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
         sum = range_add(sum, parts[i]);
         most = box3_upper(most, range_size(parts[i]));

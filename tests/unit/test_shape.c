@@ -11,7 +11,21 @@ static const struct quadric_form quarter = {.xx = 1,
                                             .constant = -1,
                                             .clip = BOX(0, 0, -INFINITY, INFINITY, INFINITY, 1),
                                             .extent = BOX3_ALL};
-enum { SPACE = STRETCHED + 1, QUARTER, LEANING };
+/* Planes: one that is open, in a box; and half of a cube below one, with all squares and products -0. */
+static const struct quadric_form open_plane = {.z = 1,
+                                               .clip = BOX(-0.5, -0.5, -0.5, 0.5, 0.5, 0.5),
+                                               .extent = BOX(-0.5, -0.5, 0, 0.5, 0.5, 0),
+                                               .open = true};
+static const struct quadric_form half_cube = {.xx = -0.0,
+                                              .yy = -0.0,
+                                              .zz = -0.0,
+                                              .xy = -0.0,
+                                              .yz = -0.0,
+                                              .zx = -0.0,
+                                              .z = 1,
+                                              .clip = BOX(-0.5, -0.5, -0.5, 0.5, 0.5, 0.5),
+                                              .extent = BOX(-0.5, -0.5, -0.5, 0.5, 0.5, 0)};
+enum { SPACE = STRETCHED + 1, QUARTER, OPEN_PLANE, HALF_CUBE, LEANING };
 
 /* With one term more than ellipses about z have, each keeps the extent that it is given. */
 #define EXTENT(x, y) .clip = SLAB(-1, 1), .extent = BOX(-(x), -(y), -1, x, y, 1)
@@ -44,6 +58,8 @@ static void make(struct alone *a, int shape) {
     case STRETCHED: alone_quadric(a, &forms[ELLIPSOID], affine_scale((vec3){1, 2, 3})); return;
     case SPACE: alone_quadric(a, &space, AFFINE_IDENTITY); return;
     case QUARTER: alone_quadric(a, &quarter, AFFINE_IDENTITY); return;
+    case OPEN_PLANE: alone_quadric(a, &open_plane, AFFINE_IDENTITY); return;
+    case HALF_CUBE: alone_quadric(a, &half_cube, AFFINE_IDENTITY); return;
     case LEANING:
     case LEANING + 1:
     case LEANING + 2:
@@ -122,6 +138,7 @@ static struct crossing_row {
     {"cylinder, infinite direction", CYLINDER, {{-3, 0, 0}, {INFINITY, 0, 0}}, MISS},
 
     {"cone along its axis", CONE, {{0, 0, -3}, {0, 0, 1}}, 2, {{2, MIN_Z}, {3, MAX_Z}}},
+    {"cone along its axis, NaN beside it", CONE, {{NAN, 0, -3}, {0, 0, 1}}, MISS},
     {"cone beside its axis", CONE, {{0.5, 0, -3}, {0, 0, 1}}, 2, {{2, MIN_Z}, {2.5, SIDE}}},
     {"cone across", CONE, {{-3, 0, -0.5}, {1, 0, 0}}, 2, {{2.5, SIDE}, {3.5, SIDE}}},
     {"cone parallel to its side", CONE, {{-0.5, 0, -1.5}, {1, 0, 1}}, 2, {{0.5, MIN_Z}, {1, SIDE}}},
@@ -153,6 +170,12 @@ static struct crossing_row {
     {"tube, in by the open end", TUBE, {{0, 0, -1}, {1, 0, 1}}, 1, {{1, SIDE}}},
     {"open cone from below", OPEN_CONE, {{0.5, 0, -3}, {0, 0, 1}}, 1, {{2.5, SIDE}}},
 
+    {"open plane", OPEN_PLANE, {{0, 0, 3}, {0, 0, -1}}, 1, {{3, SIDE}}},
+    {"open plane, at an edge of its box", OPEN_PLANE, {{-0.5, 0, 3}, {0, 0, -1}}, MISS},
+    {"open plane, only an edge of its box", OPEN_PLANE, {{-1.5, -0.5, -1}, {1, 1, 1}}, MISS},
+    {"half a cube upwards", HALF_CUBE, {{-1, -1, -1}, {1, 1, 1}}, 2, {{0.5, MIN_Z}, {1, SIDE}}},
+    {"half a cube downwards", HALF_CUBE, {{1, 1, 1}, {-1, -1, -1}}, 2, {{1, SIDE}, {1.5, MIN_Z}}},
+
     {"all of space has no surface", SPACE, {{0, 0, 0}, {1, 0, 0}}, MISS},
     {"an end at infinity is no crossing", QUARTER, {{0.5, 0.5, 3}, {0, 0, -1}}, 1, {{2, MAX_Z}}},
     {"sides with one end each", QUARTER, {{-1, 0.5, 0}, {1, 0, 0}}, 2, {{1, MIN_X},
@@ -170,6 +193,13 @@ static void check_crossings(void **state) {
     for (int i = 0; i < count; i++) {
         assert_int_equal(got[i].part, row->want[i].part);
         assert_near(got[i].t, row->want[i].t, 4e-16 * fabs(row->want[i].t), "t");
+    }
+    for (int i = 0; i <= count; i++) { /* each is the first behind the one before */
+        const double after = i == 0 ? -INFINITY : got[i - 1].t;
+        struct crossing first = {-77, SHAPE_SIDE};
+        assert_int_equal(shape_first_crossing(&a.p, a.ref, row->r, after, INFINITY, &first), i < count);
+        assert_true(i < count ? first.t == got[i].t && first.part == got[i].part : first.t == -77);
+        if (i < count) assert_true(shape_first_crossing(&a.p, a.ref, row->r, after, got[i].t, &first));
     }
 }
 
