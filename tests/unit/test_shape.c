@@ -280,7 +280,8 @@ static bool meets(const struct alone *a, ray r, double t) {
 static bool meets_slanted(double height, double x, double org_z, double across, double t, bool turn) {
     struct alone a;
     const vec3 d = {across / t, 0, (height - org_z) / t};
-    alone_flat(&a, FLAT_SQUARE, affine_translate((vec3){0, 0, height}));
+    alone_flat(&a, FLAT_SQUARE,
+               affine_compose(affine_translate((vec3){0, 0, height}), affine_scale((vec3){1, 1, 4})));
     return meets(&a, (ray){turned((vec3){x - across, 0, org_z}, turn), turned(d, turn)}, t);
 }
 
