@@ -32,9 +32,9 @@ static struct range range_with(struct range r, double value) {
 static struct range range_axis(double a, double b, struct range t) {
     const double places[] = {t.min, t.max, -0.5 * b / a};
     struct range r = {INFINITY, -INFINITY};
-    for (int i = 0; i < 3; i++)
-        if (t.min <= places[i] && places[i] <= t.max)
-            r = range_with(r, times(times(a, places[i]) + b, places[i]));
+    for (int k = 0; k < 3; k++)
+        if (t.min <= places[k] && places[k] <= t.max)
+            r = range_with(r, times(times(a, places[k]) + b, places[k]));
     return r;
 }
 

@@ -588,7 +588,7 @@ static void check_placed_surfaces(void **state) {
         if (gap) *(affine *)back = affine_compose(affine_translate(vec3_scale(random_unit(), 1e-3)), *back);
         const box3 any = {vec3_scale(random_unit(), uniform(1, 9)), {9, 9, 9}};
         const box3 extent = bounded ? any : chance(0.5) ? BOX3_EMPTY : BOX3_ALL;
-        struct surface of = {random_in((box3){{-9, -9, -9}, {9, 9, 9}}), random_unit(), 0};
+        struct surface of = {vec3_scale(random_unit(), power_of_ten(-3, 1)), random_unit(), 0};
         if (chance(0.5)) of.error = 1e-3 * uniform(0, 1);
         const struct surface got = shape_placed_surface(&placed, &of, extent);
         const vec3 width = bounded ? vec3_sub(extent.max, extent.min) : (vec3){0, 0, 0};
