@@ -14,10 +14,11 @@ static double finite_size(double value) { return fabs(value) < INFINITY ? fabs(v
 
 static double range_size(struct range r) { return box3_upper(finite_size(r.min), finite_size(r.max)); }
 
-/* The largest that a t^2 or b t becomes at a finite end, for the rounding of their sum. */
-static double axis_size(double a, double b, struct range t) {
+/* The largest that a t^2 becomes at a finite end, for the rounding of its sum with b t: where that is larger by far, the
+ * sum tells. */
+static double square_size(double a, struct range t) {
     const double most = range_size(t);
-    return fabs(a) * most * most + fabs(b) * most;
+    return fabs(a) * most * most;
 }
 
 static struct range range_add(struct range a, struct range b) {
@@ -48,7 +49,7 @@ static struct range range_product(double factor, struct range a, struct range b)
 
 /* The values of Q in the box; wider by the rounding, and where x y, y z or z x have a part in it. Rounding decides where
  * the parts of an end cancel: as much of them is above 0 then as below, so that the finite ends of all but the constant tell
- * how large they are, and axis_size the two that a part is made of. */
+ * how large they are, and square_size the two that one of them is made of. */
 static struct range form_range(const struct quadric_form *f, box3 box) {
     const struct range x = {box.min.x, box.max.x}, y = {box.min.y, box.max.y}, z = {box.min.z, box.max.z};
     const struct range parts[] = {
@@ -56,7 +57,7 @@ static struct range form_range(const struct quadric_form *f, box3 box) {
         range_product(f->xy, x, y), range_product(f->yz, y, z), range_product(f->zx, z, x),
     };
     struct range sum = {f->constant, f->constant};
-    double most = axis_size(f->xx, f->x, x) + axis_size(f->yy, f->y, y) + axis_size(f->zz, f->z, z);
+    double most = square_size(f->xx, x) + square_size(f->yy, y) + square_size(f->zz, z);
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
         sum = range_add(sum, parts[i]);
         most = box3_upper(most, range_size(parts[i]));

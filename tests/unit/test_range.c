@@ -207,6 +207,30 @@ static void check_held(void **state) {
     assert_false(form_holds_box(&form, row->box));
 }
 
+/* Of a form that is negative everywhere: what is within the clip on each side, and not at it. */
+static void check_held_within(void **state) {
+    (void)state;
+    struct random r = random_begin();
+    int held = 0;
+    for (int i = 0; i < 20000; i++) {
+        double sides[4][3];
+        bool within = true;
+        for (int k = 0; k < 3; k++) {
+            sides[0][k] = random_below(&r, 5), sides[1][k] = sides[0][k] + random_below(&r, 3);
+            sides[2][k] = sides[0][k] - (random_below(&r, 9) ? 1.0 + random_below(&r, 9) : 0.0);
+            sides[3][k] = sides[1][k] + (random_below(&r, 9) ? 1.0 + random_below(&r, 9) : 0.0);
+            within &= sides[2][k] < sides[0][k] && sides[1][k] < sides[3][k];
+        }
+        const double *min = sides[0], *max = sides[1], *low = sides[2], *high = sides[3];
+        const box3 box = {{min[0], min[1], min[2]}, {max[0], max[1], max[2]}};
+        const struct quadric_form form = {.constant = -1,
+                                          .clip = {{low[0], low[1], low[2]}, {high[0], high[1], high[2]}}};
+        assert_int_equal(form_holds_box(&form, box), within);
+        held += within;
+    }
+    assert_true(held > 5000);
+}
+
 static double value_at(const struct quadric_form *f, vec3 p) {
     return f->xx * p.x * p.x + f->yy * p.y * p.y + f->zz * p.z * p.z + f->xy * p.x * p.y + f->yz * p.y * p.z +
            f->zx * p.z * p.x + f->x * p.x + f->y * p.y + f->z * p.z + f->constant;
@@ -410,7 +434,7 @@ static void check_cancelling_at_an_end(void **state) {
 }
 
 int main(void) {
-    struct CMUnitTest tests[COUNT(rows) + COUNT(boxes) + 7];
+    struct CMUnitTest tests[COUNT(rows) + COUNT(boxes) + 8];
     size_t n = 0;
     for (size_t i = 0; i < COUNT(rows); i++)
         tests[n++] = (struct CMUnitTest){rows[i].name, check_row, NULL, NULL, &rows[i]};
@@ -422,6 +446,7 @@ int main(void) {
         (struct CMUnitTest){"terms that cancel at a corner", check_cancelling_at_a_corner, NULL, NULL, NULL};
     tests[n++] =
         (struct CMUnitTest){"terms that cancel at an end", check_cancelling_at_an_end, NULL, NULL, NULL};
+    tests[n++] = (struct CMUnitTest){"held within the clip", check_held_within, NULL, NULL, NULL};
     tests[n++] = (struct CMUnitTest){"halves of space", check_halves, NULL, NULL, NULL};
     tests[n++] = (struct CMUnitTest){"parts that share nothing", check_parts, NULL, NULL, NULL};
     tests[n++] = (struct CMUnitTest){"random forms", check_random, NULL, NULL, NULL};
