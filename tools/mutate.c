@@ -294,7 +294,7 @@ static void change_word(int i) {
     static const char *const unwrapped[] = {"sqrt",     "fabs",           "floor",    "vec3_neg",
                                             "vec3_abs", "vec3_normalize", "isfinite", NULL};
     static const char *const commutative[] = {"vec3_add",   "vec3_mul", "vec3_dot", "box3_upper",
-                                              "box3_lower", "larger",   "smaller",  NULL};
+                                              "box3_lower", "larger",   "smaller",  "times", NULL};
     EXCHANGE(i, words);
     if (is(i - 1, ".") || is(i - 1, "->")) EXCHANGE(i, members);
     if (!is(i + 1, "(")) return;

@@ -4,8 +4,8 @@
 /* Hits follow object_from_world, the box world_from_object, and each is the other's inverse only to
  * rounding: a point p is hit up to |world_from_object(object_from_world(p)) - p| outside of `box`. */
 static box3 bounds_pad(box3 box, const affine *world_from_object, const affine *object_from_world) {
-    const vec3 min = vec3_abs(box.min), max = vec3_abs(box.max);
-    const vec3 size = {box3_upper(min.x, max.x), box3_upper(min.y, max.y), box3_upper(min.z, max.z)};
+    const vec3 size = {box3_upper(-box.min.x, box.max.x), box3_upper(-box.min.y, box.max.y),
+                       box3_upper(-box.min.z, box.max.z)};
     affine gap = affine_compose(*world_from_object, *object_from_world);
     for (int i = 0; i < 3; i++) gap.m[i][i] -= 1.0;
     const vec3 rounding = affine_magnitude(world_from_object, affine_magnitude(object_from_world, size));
@@ -35,36 +35,39 @@ static bool form_is_upright(const struct quadric_form *f) {
            f->y == 0.0;
 }
 
-/* The largest row[0] x + row[1] y + row[2] z within an upright Q <= 0 and low <= z <= high. The
- * section at z with Q = xx x^2 + yy y^2 - R(z) gives row[2] z + width sqrt(R(z)); that is largest at
+/* The square of how far the ellipse xx x^2 + yy y^2 = 1 reaches along row[0] x + row[1] y. */
+static double upright_width2(const struct quadric_form *f, const double row[4]) {
+    return row[0] * row[0] / f->xx + row[1] * row[1] / f->yy;
+}
+
+/* The largest `slope` z and reach of the section at z, within an upright Q <= 0 and its extent. The
+ * section with Q = xx x^2 + yy y^2 - R(z) gives slope z + sqrt(width2 R(z)); that is largest at
  * an end or where its derivative vanishes. Never too small: R < 0 counts as 0. */
-static double upright_support(const struct quadric_form *f, const double row[4], double low, double high) {
-    const double width2 = row[0] * row[0] / f->xx + row[1] * row[1] / f->yy;
+static double upright_support(const struct quadric_form *f, double width2, double slope) {
+    const double low = f->extent.min.z, high = f->extent.max.z;
     double z[4] = {low, high, low, low};
     if (f->zz != 0.0) {
         const double middle = -0.5 * f->z / f->zz, top = -0.5 * f->z * middle - f->constant;
-        const double away = sqrt(row[2] * row[2] * top / (f->zz * (width2 * f->zz + row[2] * row[2])));
+        const double away = sqrt(slope * slope * top / (f->zz * (width2 * f->zz + slope * slope)));
         z[2] = middle - away;
         z[3] = middle + away;
     } else {
-        const double section = 0.25 * width2 * f->z * f->z / (row[2] * row[2]);
+        const double section = 0.25 * width2 * f->z * f->z / (slope * slope);
         z[2] = -(section + f->constant) / f->z;
     }
     double most = -INFINITY;
     for (int i = 0; i < 4; i++) {
         if (!(low <= z[i] && z[i] <= high)) continue; /* NaN: the derivative has no zero */
         const double section = -((f->zz * z[i] + f->z) * z[i] + f->constant);
-        most = box3_upper(most, row[2] * z[i] + sqrt(width2 * box3_upper(section, 0.0)));
+        most = box3_upper(most, slope * z[i] + sqrt(width2 * box3_upper(section, 0.0)));
     }
     return most;
 }
 
 static void upright_range(const struct quadric *q, int axis, double *min, double *max) {
-    const double *row = q->world_from_object.m[axis], low = q->form->extent.min.z,
-                 high = q->form->extent.max.z;
-    const double back[4] = {-row[0], -row[1], -row[2], 0.0};
-    *min = box3_upper(*min, row[3] - upright_support(q->form, back, low, high));
-    *max = box3_lower(*max, row[3] + upright_support(q->form, row, low, high));
+    const double *row = q->world_from_object.m[axis], width2 = upright_width2(q->form, row);
+    *min = box3_upper(*min, row[3] - upright_support(q->form, width2, -row[2]));
+    *max = box3_lower(*max, row[3] + upright_support(q->form, width2, row[2]));
 }
 
 static box3 quadric_bounds(const struct quadric *q) {
@@ -118,14 +121,16 @@ static double flat_support(const struct flat *f, vec3 direction) {
 static double quadric_support(const struct quadric *q, vec3 direction) {
     const box3 extent = q->form->extent;
     if (!box3_is_bounded(extent)) return INFINITY;
-    double row[4];
-    for (int i = 0; i < 4; i++) row[i] = vec3_dot(affine_column(q->world_from_object, i), direction);
-    const double x = row[0] * (row[0] > 0.0 ? extent.max.x : extent.min.x);
-    const double y = row[1] * (row[1] > 0.0 ? extent.max.y : extent.min.y);
-    const double z = row[2] * (row[2] > 0.0 ? extent.max.z : extent.min.z);
+    const affine m = q->world_from_object;
+    const double row[4] = {vec3_dot(affine_column(m, 0), direction), vec3_dot(affine_column(m, 1), direction),
+                           vec3_dot(affine_column(m, 2), direction),
+                           vec3_dot(affine_column(m, 3), direction)};
+    const double x = box3_upper(row[0] * extent.min.x, row[0] * extent.max.x);
+    const double y = box3_upper(row[1] * extent.min.y, row[1] * extent.max.y);
+    const double z = box3_upper(row[2] * extent.min.z, row[2] * extent.max.z);
     double most = x + y + z;
     if (form_is_upright(q->form))
-        most = box3_lower(most, upright_support(q->form, row, extent.min.z, extent.max.z));
+        most = box3_lower(most, upright_support(q->form, upright_width2(q->form, row), row[2]));
     return row[3] + most;
 }
 

@@ -26,7 +26,7 @@ static bool square_covers(const struct flat *f, ray r, double t, double x, doubl
 bool flat_first_crossing(const struct flat *f, ray r, double t_min, double t_max, struct crossing *out) {
     const double(*m)[4] = f->object_from_world.m;
     const double t = -row_point(m[2], r.org) / row_direction(m[2], r.dir);
-    if (!(t > t_min && t <= t_max && fabs(t) < INFINITY)) return false; /* in the plane: 0/0 */
+    if (!(t > t_min && t <= t_max && t < INFINITY)) return false; /* in the plane: 0/0 */
     if (f->outline != FLAT_PLANE) {
         const double x = row_point(m[0], r.org) + t * row_direction(m[0], r.dir);
         const double y = row_point(m[1], r.org) + t * row_direction(m[1], r.dir);

@@ -11,17 +11,17 @@ struct level {
     double bend; /* no second derivative, along a unit direction, is larger */
 };
 
-static double largest(double a, double b, double c) { return vec3_max_abs((vec3){a, b, c}); }
-
 static struct level form_level(const struct quadric_form *f, vec3 p) {
-    const double square = largest(f->xx, f->yy, f->zz), mixed = largest(f->xy, f->yz, f->zx);
+    const double square = vec3_max_abs((vec3){f->xx, f->yy, f->zz});
+    const double mixed = vec3_max_abs((vec3){f->xy, f->yz, f->zx});
+    const double line = vec3_max_abs((vec3){f->x, f->y, f->z});
     const double reach = fabs(p.x) + fabs(p.y) + fabs(p.z);
     return (struct level){
         .value = form_value(f, p),
         .gradient = {2.0 * f->xx * p.x + f->xy * p.y + f->zx * p.z + f->x,
                      2.0 * f->yy * p.y + f->xy * p.x + f->yz * p.z + f->y,
                      2.0 * f->zz * p.z + f->zx * p.x + f->yz * p.y + f->z},
-        .size = ((square + mixed) * reach + largest(f->x, f->y, f->z)) * reach + fabs(f->constant),
+        .size = ((square + mixed) * reach + line) * reach + fabs(f->constant),
         .bend = 2.0 * (square + mixed),
     };
 }

@@ -48,22 +48,22 @@ struct roots {
 
 /* The roots of a s^2 + 2 b s + c, without cancellation. A double root is none. */
 static inline struct roots roots_of(double a, double b, double c) {
-    const struct roots all = {1, -INFINITY, INFINITY}, none = {0, 0, 0};
+    const struct roots all = {1, -INFINITY, INFINITY}, none = {0};
     const double disc = b * b - a * c;
     if (!(disc > 0.0)) return disc <= 0.0 && (a < 0.0 || (a == 0.0 && c < 0.0)) ? all : none;
     const double q = b < 0.0 ? sqrt(disc) - b : -(b + sqrt(disc));
     const double near = c / q;
     if (a == 0.0) return b > 0.0 ? (struct roots){1, -INFINITY, near} : (struct roots){1, near, INFINITY};
     const double far = q / a;
-    return (struct roots){a < 0.0 ? 2 : 1, near < far ? near : far, near < far ? far : near};
+    return (struct roots){a < 0.0 ? 2 : 1, box3_lower(near, far), box3_upper(near, far)};
 }
 
 /* Q along the line. The origin is first moved to where the line is closest to that of object space,
  * within `box`: from afar the coefficients would cancel, and close to the apex of a cone they keep
  * their relative precision. */
 static inline struct roots roots_on_line(const struct quadric_form *f, ray r, const struct chord *box) {
-    double mid = -vec3_dot(r.org, r.dir) / vec3_dot(r.dir, r.dir);
-    mid = mid < box->enter.t ? box->enter.t : mid > box->leave.t ? box->leave.t : mid;
+    const double closest = -vec3_dot(r.org, r.dir) / vec3_dot(r.dir, r.dir);
+    const double mid = box3_lower(box3_upper(closest, box->enter.t), box->leave.t);
     const vec3 o = ray_at(r, mid), d = r.dir;
     const vec3 sd = {f->xx * d.x + 0.5 * (f->xy * d.y + f->zx * d.z),
                      f->yy * d.y + 0.5 * (f->xy * d.x + f->yz * d.z),

@@ -7,66 +7,60 @@ struct range {
     double min, max;
 };
 
-/* The largest that a t^2 or b t becomes at a finite end, for the rounding of their sum. */
-static double axis_size(double a, double b, double min, double max) {
-    double most = 0.0;
-    if (fabs(min) < INFINITY) most = fabs(min);
-    if (fabs(max) < INFINITY) most = box3_upper(most, fabs(max));
-    return fabs(a) * most * most + fabs(b) * most;
+/* A product of numbers: each has an end, so that 0 times even the largest is 0. */
+static double times(double a, double b) { return a == 0.0 || b == 0.0 ? 0.0 : a * b; }
+
+static double finite_size(double value) { return fabs(value) < INFINITY ? fabs(value) : 0.0; }
+
+static double range_size(struct range r) { return box3_upper(finite_size(r.min), finite_size(r.max)); }
+
+/* The largest that a t^2 becomes at a finite end, for the rounding of its sum with b t: where that is larger by far, the
+ * sum tells. */
+static double square_size(double a, struct range t) {
+    const double most = range_size(t);
+    return fabs(a) * most * most;
 }
 
 static struct range range_add(struct range a, struct range b) {
     return (struct range){a.min + b.min, a.max + b.max};
 }
 
-/* a t^2 + b t: its values at the ends, which may be infinite, and at the vertex. */
-static struct range range_axis(double a, double b, double min, double max) {
-    if (a == 0.0 && b == 0.0) return (struct range){0.0, 0.0};
+static struct range range_with(struct range r, double value) {
+    return (struct range){box3_lower(r.min, value), box3_upper(r.max, value)};
+}
+
+/* a t^2 + b t: its values at the ends, which may be infinite, and at the vertex; without a that is no number, or infinite. */
+static struct range range_axis(double a, double b, struct range t) {
+    const double places[] = {t.min, t.max, -0.5 * b / a};
     struct range r = {INFINITY, -INFINITY};
-    const double vertex = a != 0.0 ? -0.5 * b / a : min;
-    const double ends[] = {min, max, vertex};
-    for (int i = 0; i < 3; i++) {
-        const double t = ends[i];
-        if (!(min <= t && t <= max)) continue;
-        const double lead = a != 0.0 ? a : b * t;
-        const double value = fabs(t) < INFINITY ? (a * t + b) * t : copysign(INFINITY, lead);
-        r = (struct range){box3_lower(r.min, value), box3_upper(r.max, value)};
-    }
+    for (int k = 0; k < 3; k++)
+        if (t.min <= places[k] && places[k] <= t.max)
+            r = range_with(r, times(times(a, places[k]) + b, places[k]));
     return r;
 }
 
-static struct range range_product(double factor, double min_a, double max_a, double min_b, double max_b) {
-    const struct range all = {-INFINITY, INFINITY};
-    if (factor == 0.0) return (struct range){0.0, 0.0};
-    const double corners[] = {min_a * min_b, min_a * max_b, max_a * min_b, max_a * max_b};
+static struct range range_product(double factor, struct range a, struct range b) {
+    const double corners[] = {times(a.min, b.min), times(a.min, b.max), times(a.max, b.min),
+                              times(a.max, b.max)};
     struct range r = {INFINITY, -INFINITY};
-    for (int i = 0; i < 4; i++) {
-        if (!(fabs(corners[i]) < INFINITY)) return all;
-        r = (struct range){box3_lower(r.min, factor * corners[i]), box3_upper(r.max, factor * corners[i])};
-    }
+    for (int i = 0; i < 4; i++) r = range_with(r, times(factor, corners[i]));
     return r;
 }
 
 /* The values of Q in the box; wider by the rounding, and where x y, y z or z x have a part in it. Rounding decides where
- * the parts of an end cancel: as much of them is above 0 then as below, so that the upper ends tell how large they are,
- * and axis_size where one has no upper end. */
+ * the parts of an end cancel: as much of them is above 0 then as below, so that the finite ends of all but the constant tell
+ * how large they are, and square_size the two that one of them is made of. */
 static struct range form_range(const struct quadric_form *f, box3 box) {
-    const vec3 a = box.min, b = box.max;
+    const struct range x = {box.min.x, box.max.x}, y = {box.min.y, box.max.y}, z = {box.min.z, box.max.z};
     const struct range parts[] = {
-        range_axis(f->xx, f->x, a.x, b.x),
-        range_axis(f->yy, f->y, a.y, b.y),
-        range_axis(f->zz, f->z, a.z, b.z),
-        range_product(f->xy, a.x, b.x, a.y, b.y),
-        range_product(f->yz, a.y, b.y, a.z, b.z),
-        range_product(f->zx, a.z, b.z, a.x, b.x),
-        {f->constant, f->constant},
+        range_axis(f->xx, f->x, x), range_axis(f->yy, f->y, y), range_axis(f->zz, f->z, z),
+        range_product(f->xy, x, y), range_product(f->yz, y, z), range_product(f->zx, z, x),
     };
-    struct range sum = {0.0, 0.0};
-    double most = axis_size(f->xx, f->x, a.x, b.x) + axis_size(f->yy, f->y, a.y, b.y) +
-                  axis_size(f->zz, f->z, a.z, b.z);
+    struct range sum = {f->constant, f->constant};
+    double most = square_size(f->xx, x) + square_size(f->yy, y) + square_size(f->zz, z);
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
         sum = range_add(sum, parts[i]);
-        if (fabs(parts[i].max) < INFINITY) most = box3_upper(most, fabs(parts[i].max));
+        most = box3_upper(most, range_size(parts[i]));
     }
     return (struct range){sum.min - slack * most, sum.max + slack * most};
 }
@@ -82,20 +76,19 @@ static bool is_positive(const struct quadric_form *f, double sign) {
     for (int i = 0; i < 16; i++) most = box3_upper(most, fabs(m[i / 4][i % 4]));
     const double least = slack * most;
     bool done[4] = {false, false, false, false};
-    for (int step = 0; step < 3; step++) {
+    for (;;) {
         int best = -1;
         for (int i = 0; i < 3; i++)
             if (!done[i] && (best < 0 || sign * m[i][i] > sign * m[best][best])) best = i;
-        if (!(sign * m[best][best] > least)) break;
+        if (best < 0 || !(sign * m[best][best] > least)) break;
         done[best] = true;
         for (int i = 0; i < 4; i++)
             for (int j = 0; j < 4; j++)
-                if (i != best && j != best && !(i < 3 && done[i]) && !(j < 3 && done[j]))
-                    m[i][j] -= m[i][best] * m[best][j] / m[best][best];
+                if (!done[i] && !done[j]) m[i][j] -= m[i][best] * m[best][j] / m[best][best];
     }
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 4; j++)
-            if (!done[i] && !(j < 3 && done[j]) && fabs(m[i][j]) > least) return false;
+            if (!done[i] && !done[j] && fabs(m[i][j]) >= least) return false;
     return sign * m[3][3] > least;
 }
 

@@ -95,6 +95,7 @@ static void make_subject(struct subject *s, int kind, const struct quadric_form 
     s->map = map;
     s->extent =
         form ? form->extent : (box3)BOX(-1, -1, kind == SPHERE ? -1 : 0, 1, 1, kind == SPHERE ? 1 : 0);
+    if (kind == SQUARE) s->extent = (box3)BOX(-0.5, -0.5, 0, 0.5, 0.5, 0);
     if (kind == SPHERE) {
         const double radius = vec3_length(affine_column(map, 0));
         s->map = affine_compose(affine_translate(affine_column(map, 3)), affine_scale(vec3_all(radius)));

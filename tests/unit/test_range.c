@@ -1,4 +1,6 @@
 /* What is proven of quadrics: by hand, and never against what points show. */
+#include <string.h>
+
 #include "near.h"
 #include "shape/range.h"
 
@@ -79,6 +81,16 @@ static struct row {
     {"y z = 5 within", {.yz = 1, .constant = -5, .clip = {{0, 1, 2}, {1, 2, 3}}, .open = true}, false},
     {"z x = 7 for less", {.zx = 1, .constant = -7, .clip = {{1, 0, 2}, {2, 1, 3}}, .open = true}, true},
     {"z x = 5 within", {.zx = 1, .constant = -5, .clip = {{1, 0, 2}, {2, 1, 3}}, .open = true}, false},
+    {"(x + y)^2 = -1, of any size: tiny",
+     {.xx = 1e-100, .yy = 1e-100, .xy = 2e-100, .constant = 1e-100, .clip = EVERYWHERE},
+     true},
+    {"x^2 = 0", {.xx = 1, .clip = EVERYWHERE}, false},
+    {"-x^2 = 0", {.xx = -1, .clip = EVERYWHERE}, false},
+    {"nothing is 0 everywhere", {.clip = EVERYWHERE}, false},
+    {"x^2 + 2e-12 y z = -1, far out", {.xx = 1, .yz = 2e-12, .constant = 1, .clip = EVERYWHERE}, false},
+    {"1e-12 (x + y)^2 + 1e-6 (x + y) = -1 is not told",
+     {.xx = 1e-12, .yy = 1e-12, .xy = 2e-12, .x = 1e-6, .y = 1e-6, .constant = 1, .clip = EVERYWHERE},
+     false},
     {"a plane in half of space",
      {.x = 1, .clip = {{-1, -INFINITY, -INFINITY}, {INFINITY, INFINITY, INFINITY}}},
      false},
@@ -87,6 +99,83 @@ static struct row {
 static void check_row(void **state) {
     const struct row *row = *state;
     assert_int_equal(form_is_empty(&row->form), row->empty);
+}
+
+/* All of a half of space has a surface: where it is cut. */
+static void check_halves(void **state) {
+    (void)state;
+    for (int i = 0; i < 6; i++) {
+        struct quadric_form form = {.xx = -1, .constant = -1, .clip = EVERYWHERE};
+        double *const sides[] = {&form.clip.min.x, &form.clip.min.y, &form.clip.min.z,
+                                 &form.clip.max.x, &form.clip.max.y, &form.clip.max.z};
+        assert_true(form_is_empty(&form));
+        *sides[i] = 0;
+        assert_false(form_is_empty(&form));
+        form.open = true;
+        assert_true(form_is_empty(&form));
+    }
+}
+
+/* ---- Boxes with and without ends ---- */
+
+/* Where a t^2 + 2 b t, and a product, have their least and largest values: at the ends, and at the vertex. What has no end
+ * goes on for longer than matters. */
+static int places_in(const double range[2], double a, double b, double places[3]) {
+    int count = 0;
+    for (int i = 0; i < 2; i++) places[count++] = fmax(-1e6, fmin(1e6, range[i]));
+    if (a != 0 && range[0] <= -b / a && -b / a <= range[1]) places[count++] = -b / a;
+    return count;
+}
+
+/* A square and a line in one variable, and the product of the two others: nothing is in two parts, so that all is known
+ * of them, to the last value. All numbers are exact. */
+static void check_parts(void **state) {
+    (void)state;
+    struct random r = random_begin();
+    static const double ends[] = {-INFINITY, -2, -1, 0, 1, 2, INFINITY};
+    int empty = 0, held = 0;
+    for (int i = 0; i < 50000; i++) {
+        struct quadric_form f = {.constant = random_below(&r, 9) - 4.0};
+        double *const square[] = {&f.xx, &f.yy, &f.zz}, *const line[] = {&f.x, &f.y, &f.z},
+                      *const product[] = {&f.yz, &f.zx, &f.xy};
+        const int k = (int)random_below(&r, 3), u = (k + 1) % 3, v = (k + 2) % 3;
+        const double a = random_below(&r, 3) - 1.0, b = random_below(&r, 5) - 2.0,
+                     c = random_below(&r, 5) - 2.0;
+        *square[k] = a, *line[k] = 2 * b, *product[k] = c;
+        double range[3][2];
+        bool bounded = true;
+        for (int axis = 0; axis < 3; axis++) {
+            unsigned from, to; /* no end is a place */
+            do {
+                from = random_below(&r, 6), to = random_below(&r, 6) + 1;
+            } while (from > to);
+            range[axis][0] = ends[from], range[axis][1] = ends[to];
+            bounded &= from > 0 && to < 6;
+        }
+        double places[3][3], least = INFINITY, most = -INFINITY;
+        const int n = places_in(range[k], a, b, places[k]);
+        places_in(range[u], 0, 0, places[u]);
+        places_in(range[v], 0, 0, places[v]);
+        for (int p = 0; p < n; p++)
+            for (int q = 0; q < 4; q++) {
+                const double t = places[k][p];
+                const double value =
+                    a * t * t + 2 * b * t + c * places[u][q % 2] * places[v][q / 2] + f.constant;
+                least = fmin(least, value), most = fmax(most, value);
+            }
+        const box3 box = {{range[0][0], range[1][0], range[2][0]}, {range[0][1], range[1][1], range[2][1]}};
+        f.clip = EVERYWHERE;
+        assert_int_equal(form_holds_box(&f, box), bounded && most < 0);
+        held += bounded && most < 0;
+        f.clip = box;
+        f.open = true;
+        assert_int_equal(form_is_empty(&f), least > 0 || most < 0);
+        f.open = false;
+        if (memcmp(&box, &EVERYWHERE, sizeof box)) assert_int_equal(form_is_empty(&f), least > 0);
+        empty += least > 0 || most < 0;
+    }
+    printf("# %d empty, %d held\n", empty, held);
+    assert_true(empty > 10000 && held > 1000);
 }
 
 /* ---- Boxes inside ---- */
@@ -114,6 +203,32 @@ static void check_held(void **state) {
     assert_int_equal(form_holds_box(&form, row->box), row->held);
     form.open = true;
     assert_false(form_holds_box(&form, row->box));
+    form = (struct quadric_form){.clip = form.clip}; /* 0, which is the surface, everywhere */
+    assert_false(form_holds_box(&form, row->box));
+}
+
+/* Of a form that is negative everywhere: what is within the clip on each side, and not at it. */
+static void check_held_within(void **state) {
+    (void)state;
+    struct random r = random_begin();
+    int held = 0;
+    for (int i = 0; i < 20000; i++) {
+        double sides[4][3];
+        bool within = true;
+        for (int k = 0; k < 3; k++) {
+            sides[0][k] = random_below(&r, 5), sides[1][k] = sides[0][k] + random_below(&r, 3);
+            sides[2][k] = sides[0][k] - (random_below(&r, 9) ? 1.0 + random_below(&r, 9) : 0.0);
+            sides[3][k] = sides[1][k] + (random_below(&r, 9) ? 1.0 + random_below(&r, 9) : 0.0);
+            within &= sides[2][k] < sides[0][k] && sides[1][k] < sides[3][k];
+        }
+        const double *min = sides[0], *max = sides[1], *low = sides[2], *high = sides[3];
+        const box3 box = {{min[0], min[1], min[2]}, {max[0], max[1], max[2]}};
+        const struct quadric_form form = {.constant = -1,
+                                          .clip = {{low[0], low[1], low[2]}, {high[0], high[1], high[2]}}};
+        assert_int_equal(form_holds_box(&form, box), within);
+        held += within;
+    }
+    assert_true(held > 5000);
 }
 
 static double value_at(const struct quadric_form *f, vec3 p) {
@@ -283,8 +398,43 @@ static void check_cancelling_at_a_corner(void **state) {
     assert_true(in > 10000 && out > 10000 && told > 1000);
 }
 
+/* The same with products of the one variable whose range has no end, from the corner: each of its parts grows. */
+static void check_cancelling_at_an_end(void **state) {
+    (void)state;
+    struct random r = random_begin();
+    int out = 0, told = 0;
+    for (int i = 0; i < 50000; i++) {
+        const vec3 at = random_vec3(&r, -3, 3);
+        const double corner[] = {at.x, at.y, at.z};
+        struct quadric_form f = {.open = true};
+        double *const product[] = {&f.yz, &f.zx, &f.xy};
+        const int k = (int)random_below(&r, 3), u = (k + 1) % 3, v = (k + 2) % 3;
+        const double up = random_below(&r, 2) ? 1 : -1;
+        *product[u] = copysign(random_between(&r, 0, 1), up * corner[v]);
+        *product[v] = copysign(random_between(&r, 0, 1), up * corner[u]);
+        double *const term = random_below(&r, 2) ? product[v] : &f.constant;
+        long double value;
+        *term = 0;
+        terms_at(&f, at, &value);
+        *term = (double)(-value / (long double)(term == &f.constant ? 1 : corner[k] * corner[u]));
+        if (term != &f.constant && *term * up * corner[u] < 0) continue; /* it would fall */
+        if (random_below(&r, 2)) *term *= 1 + random_between(&r, -1e-10, 1e-10);
+        double min[] = {at.x, at.y, at.z}, max[] = {at.x, at.y, at.z};
+        *(up > 0 ? &max[k] : &min[k]) = up * INFINITY;
+        f.clip = (box3){{min[0], min[1], min[2]}, {max[0], max[1], max[2]}};
+        const long double size = terms_at(&f, at, &value);
+        const bool empty = form_is_empty(&f);
+        if (empty && !(value > 0)) fail_msg("empty at %Lg of %Lg", value, size);
+        if (value > 2e-11L * size) assert_true(empty);
+        out += value > 0;
+        told += empty;
+    }
+    printf("# %d out, %d told\n", out, told);
+    assert_true(out > 10000 && told > 1000);
+}
+
 int main(void) {
-    struct CMUnitTest tests[COUNT(rows) + COUNT(boxes) + 4];
+    struct CMUnitTest tests[COUNT(rows) + COUNT(boxes) + 8];
     size_t n = 0;
     for (size_t i = 0; i < COUNT(rows); i++)
         tests[n++] = (struct CMUnitTest){rows[i].name, check_row, NULL, NULL, &rows[i]};
@@ -294,6 +444,11 @@ int main(void) {
     tests[n++] = (struct CMUnitTest){"terms that cancel", check_cancelling, NULL, NULL, NULL};
     tests[n++] =
         (struct CMUnitTest){"terms that cancel at a corner", check_cancelling_at_a_corner, NULL, NULL, NULL};
+    tests[n++] =
+        (struct CMUnitTest){"terms that cancel at an end", check_cancelling_at_an_end, NULL, NULL, NULL};
+    tests[n++] = (struct CMUnitTest){"held within the clip", check_held_within, NULL, NULL, NULL};
+    tests[n++] = (struct CMUnitTest){"halves of space", check_halves, NULL, NULL, NULL};
+    tests[n++] = (struct CMUnitTest){"parts that share nothing", check_parts, NULL, NULL, NULL};
     tests[n++] = (struct CMUnitTest){"random forms", check_random, NULL, NULL, NULL};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

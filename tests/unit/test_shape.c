@@ -1,25 +1,6 @@
 /* Shapes at places where the answer is known in closed form. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
+#include "near.h"
 #include "shape_forms.h"
-
-#define COUNT(rows) (sizeof(rows) / sizeof *(rows))
-
-static void assert_near(double got, double want, double tolerance, const char *what) {
-    if (!(fabs(got - want) <= tolerance) && got != want)
-        fail_msg("%s: got %.17g, want %.17g", what, got, want);
-}
-
-static void assert_vec3_near(vec3 got, vec3 want, double tolerance, const char *what) {
-    if (!(vec3_max_abs(vec3_sub(got, want)) <= tolerance))
-        fail_msg("%s: got (%.17g, %.17g, %.17g), want (%.17g, %.17g, %.17g)", what, got.x, got.y, got.z,
-                 want.x, want.y, want.z);
-}
 
 /* The shapes that the tables name; the canonical one of each kind. */
 enum { SPHERE = FORM_COUNT, SQUARE, DISC, PLANE, BALL_2, SLANTED, MIRRORED, STRETCHED };
@@ -30,7 +11,21 @@ static const struct quadric_form quarter = {.xx = 1,
                                             .constant = -1,
                                             .clip = BOX(0, 0, -INFINITY, INFINITY, INFINITY, 1),
                                             .extent = BOX3_ALL};
-enum { SPACE = STRETCHED + 1, QUARTER, LEANING };
+/* Planes: one that is open, in a box; and half of a cube below one, with all squares and products -0. */
+static const struct quadric_form open_plane = {.z = 1,
+                                               .clip = BOX(-0.5, -0.5, -0.5, 0.5, 0.5, 0.5),
+                                               .extent = BOX(-0.5, -0.5, 0, 0.5, 0.5, 0),
+                                               .open = true};
+static const struct quadric_form half_cube = {.xx = -0.0,
+                                              .yy = -0.0,
+                                              .zz = -0.0,
+                                              .xy = -0.0,
+                                              .yz = -0.0,
+                                              .zx = -0.0,
+                                              .z = 1,
+                                              .clip = BOX(-0.5, -0.5, -0.5, 0.5, 0.5, 0.5),
+                                              .extent = BOX(-0.5, -0.5, -0.5, 0.5, 0.5, 0)};
+enum { SPACE = STRETCHED + 1, QUARTER, OPEN_PLANE, HALF_CUBE, LEANING };
 
 /* With one term more than ellipses about z have, each keeps the extent that it is given. */
 #define EXTENT(x, y) .clip = SLAB(-1, 1), .extent = BOX(-(x), -(y), -1, x, y, 1)
@@ -63,6 +58,8 @@ static void make(struct alone *a, int shape) {
     case STRETCHED: alone_quadric(a, &forms[ELLIPSOID], affine_scale((vec3){1, 2, 3})); return;
     case SPACE: alone_quadric(a, &space, AFFINE_IDENTITY); return;
     case QUARTER: alone_quadric(a, &quarter, AFFINE_IDENTITY); return;
+    case OPEN_PLANE: alone_quadric(a, &open_plane, AFFINE_IDENTITY); return;
+    case HALF_CUBE: alone_quadric(a, &half_cube, AFFINE_IDENTITY); return;
     case LEANING:
     case LEANING + 1:
     case LEANING + 2:
@@ -115,6 +112,8 @@ static struct crossing_row {
     {"disc, NaN origin", DISC, {{NAN, 0, -3}, {0, 0, 1}}, MISS},
     {"plane far out", PLANE, {{1e6, 1e6, -3}, {0, 0, 1}}, 1, {{3, SIDE}}},
     {"plane in parallel", PLANE, {{0, 0, 1}, {1, 1, 0}}, MISS},
+    {"plane in parallel, above", PLANE, {{0, 0, -1}, {1, 1, 0}}, MISS},
+    {"square in parallel, above", SQUARE, {{0, 0, -1}, {1, 0, 0}}, MISS},
     {"plane, NaN direction", PLANE, {{0, 0, 1}, {1, NAN, -1}}, MISS},
 
     {"ellipsoid, long way", STRETCHED, {{0, 0, -5}, {0, 0, 1}}, 2, {{2, SIDE}, {8, SIDE}}},
@@ -139,6 +138,7 @@ static struct crossing_row {
     {"cylinder, infinite direction", CYLINDER, {{-3, 0, 0}, {INFINITY, 0, 0}}, MISS},
 
     {"cone along its axis", CONE, {{0, 0, -3}, {0, 0, 1}}, 2, {{2, MIN_Z}, {3, MAX_Z}}},
+    {"cone along its axis, NaN beside it", CONE, {{NAN, 0, -3}, {0, 0, 1}}, MISS},
     {"cone beside its axis", CONE, {{0.5, 0, -3}, {0, 0, 1}}, 2, {{2, MIN_Z}, {2.5, SIDE}}},
     {"cone across", CONE, {{-3, 0, -0.5}, {1, 0, 0}}, 2, {{2.5, SIDE}, {3.5, SIDE}}},
     {"cone parallel to its side", CONE, {{-0.5, 0, -1.5}, {1, 0, 1}}, 2, {{0.5, MIN_Z}, {1, SIDE}}},
@@ -170,6 +170,12 @@ static struct crossing_row {
     {"tube, in by the open end", TUBE, {{0, 0, -1}, {1, 0, 1}}, 1, {{1, SIDE}}},
     {"open cone from below", OPEN_CONE, {{0.5, 0, -3}, {0, 0, 1}}, 1, {{2.5, SIDE}}},
 
+    {"open plane", OPEN_PLANE, {{0, 0, 3}, {0, 0, -1}}, 1, {{3, SIDE}}},
+    {"open plane, at an edge of its box", OPEN_PLANE, {{-0.5, 0, 3}, {0, 0, -1}}, MISS},
+    {"open plane, only an edge of its box", OPEN_PLANE, {{-1.5, -0.5, -1}, {1, 1, 1}}, MISS},
+    {"half a cube upwards", HALF_CUBE, {{-1, -1, -1}, {1, 1, 1}}, 2, {{0.5, MIN_Z}, {1, SIDE}}},
+    {"half a cube downwards", HALF_CUBE, {{1, 1, 1}, {-1, -1, -1}}, 2, {{1, SIDE}, {1.5, MIN_Z}}},
+
     {"all of space has no surface", SPACE, {{0, 0, 0}, {1, 0, 0}}, MISS},
     {"an end at infinity is no crossing", QUARTER, {{0.5, 0.5, 3}, {0, 0, -1}}, 1, {{2, MAX_Z}}},
     {"sides with one end each", QUARTER, {{-1, 0.5, 0}, {1, 0, 0}}, 2, {{1, MIN_X},
@@ -187,6 +193,13 @@ static void check_crossings(void **state) {
     for (int i = 0; i < count; i++) {
         assert_int_equal(got[i].part, row->want[i].part);
         assert_near(got[i].t, row->want[i].t, 4e-16 * fabs(row->want[i].t), "t");
+    }
+    for (int i = 0; i <= count; i++) { /* each is the first behind the one before */
+        const double after = i == 0 ? -INFINITY : got[i - 1].t;
+        struct crossing first = {-77, SHAPE_SIDE};
+        assert_int_equal(shape_first_crossing(&a.p, a.ref, row->r, after, INFINITY, &first), i < count);
+        assert_true(i < count ? first.t == got[i].t && first.part == got[i].part : first.t == -77);
+        if (i < count) assert_true(shape_first_crossing(&a.p, a.ref, row->r, after, got[i].t, &first));
     }
 }
 
@@ -232,6 +245,74 @@ static void check_edges(void **state) {
     assert_true(met > 20);
 }
 
+/* A ray in any face of a box misses it, and is not inside; one within, as close as can be told, meets it. */
+static void check_faces(void **state) {
+    (void)state;
+    struct crossing c[SHAPE_MAX_CROSSINGS];
+    struct alone a;
+    make(&a, CUBE);
+    for (int i = 0; i < 12; i++) {
+        const int axis = i % 3, along = (axis + 1 + i / 6) % 3;
+        const double side = i / 3 % 2 ? 0.5 : -0.5;
+        double org[] = {0, 0, 0}, dir[] = {0, 0, 0};
+        org[along] = -3, dir[along] = 1;
+        for (int k = 0; k < 3; k++) {
+            org[axis] = k == 0 ? nextafter(side, 0) : k == 1 ? side : nextafter(side, 2 * side);
+            const ray r = {{org[0], org[1], org[2]}, {dir[0], dir[1], dir[2]}};
+            assert_int_equal(shape_crossings(&a.p, a.ref, r, c), k == 0 ? 2 : 0);
+            assert_int_equal(shape_contains(&a.p, a.ref, ray_at(r, 3)), k == 0);
+        }
+    }
+}
+
+/* ---- The edge of a square ---- */
+
+static vec3 turned(vec3 v, bool turn) { return turn ? (vec3){v.y, v.x, v.z} : v; }
+
+static bool meets(const struct alone *a, ray r, double t) {
+    struct crossing c[SHAPE_MAX_CROSSINGS];
+    if (shape_crossings(&a->p, a->ref, r, c) == 0) return false;
+    assert_true(c[0].t == t);
+    return true;
+}
+
+/* A ray from org_z to z = height, which it crosses at (x, 0), or (0, x), at t. On the way it goes across by `across`. */
+static bool meets_slanted(double height, double x, double org_z, double across, double t, bool turn) {
+    struct alone a;
+    const vec3 d = {across / t, 0, (height - org_z) / t};
+    alone_flat(&a, FLAT_SQUARE,
+               affine_compose(affine_translate((vec3){0, 0, height}), affine_scale((vec3){1, 1, 4})));
+    return meets(&a, (ray){turned((vec3){x - across, 0, org_z}, turn), turned(d, turn)}, t);
+}
+
+/* A ray straight down to a square at `at`, at x of its own. */
+static bool meets_below(double at, double x, bool turn) {
+    struct alone a;
+    alone_flat(&a, FLAT_SQUARE, affine_translate(turned((vec3){at, 0, 0}, turn)));
+    return meets(&a, (ray){turned((vec3){at + x, 0, 3}, turn), {0, 0, -1}}, 3);
+}
+
+/* It goes as far as rounding may: by 16 units of all numbers that x is made from, and of those that t is, as often as
+ * the ray runs across; but by no more than a hundredth. */
+static void check_edge_of_square(void **state) {
+    (void)state;
+    const double unit = 16 * 0x1p-52, across = 0x1p38;
+    for (int i = 0; i < 32; i++) {
+        const double to = i & 1 ? across : -across, side = i & 2 ? 1 : -1, t = i & 4 ? 2 : -2,
+                     z = i & 8 ? 1 : -1;
+        const bool turn = i & 16;
+        const double past = unit * (across + across) + unit * (3 + 2 + 1) * (across / 2), last = 0x1p-13;
+        assert_true(meets_slanted(z, side * (0.5 + past - last), 3 * z, to, t, turn));
+        assert_false(meets_slanted(z, side * (0.5 + past + last), 3 * z, to, t, turn));
+        assert_true(meets_slanted(z, side * (0.5 + 10 * 0x1p-10), 3 * z, 8 * to, t, turn));
+        assert_false(meets_slanted(z, side * (0.5 + 11 * 0x1p-10), 3 * z, 8 * to, t, turn));
+        /* to the last unit: |at + x| + |at| is 2^20 */
+        const double just = unit * 0x1p20, at = 0x1p19 - side * (0.25 + 0.5 * just);
+        assert_true(meets_below(at, side * (0.5 + just), turn));
+        assert_false(meets_below(at, side * (0.5 + just + 0x1p-33), turn));
+    }
+}
+
 static struct first_row {
     const char *name;
     int shape;
@@ -246,6 +327,8 @@ static struct first_row {
     {"t_min is left out", SPHERE, {{0, 0, -3}, {0, 0, 1}}, 2, INFINITY, true, 4},
     {"t_max belongs to the window", SPHERE, {{0, 0, -3}, {0, 0, 1}}, 0, 2, true, 2},
     {"before the window's end", SPHERE, {{0, 0, -3}, {0, 0, 1}}, 0, 1.999, false, 0},
+    {"t_min at its exit", SPHERE, {{0, 0, -3}, {0, 0, 1}}, 4, INFINITY, false, 0},
+    {"t_min before its exit", SPHERE, {{0, 0, -3}, {0, 0, 1}}, 3.999, 4, true, 4},
     {"window within the sphere", SPHERE, {{0, 0, -3}, {0, 0, 1}}, 2.5, 3.5, false, 0},
     {"square", SQUARE, {{0, 0, -3}, {0, 0, 1}}, 0, 3, true, 3},
     {"square before t_min", SQUARE, {{0, 0, -3}, {0, 0, 1}}, 3, INFINITY, false, 0},
@@ -256,6 +339,8 @@ static struct first_row {
     {"cylinder, t_min at its entry", CYLINDER, {{-3, 0, 0}, {1, 0, 0}}, 2, INFINITY, true, 4},
     {"cylinder, t_min at its exit", CYLINDER, {{-3, 0, 0}, {1, 0, 0}}, 4, INFINITY, false, 0},
     {"cylinder, t_max at its entry", CYLINDER, {{-3, 0, 0}, {1, 0, 0}}, 0, 2, true, 2},
+    {"box, t_max at its entry", CUBE, {{-3, 0, 0}, {1, 0, 0}}, 0, 2.5, true, 2.5},
+    {"box, t_min at its exit", CUBE, {{-3, 0, 0}, {1, 0, 0}}, 3.5, 9, false, 0},
     {"cylinder past t_max", CYLINDER, {{-3, 0, 0}, {1, 0, 0}}, 0, 1.999, false, 0},
     {"cylinder, window within", CYLINDER, {{-3, 0, 0}, {1, 0, 0}}, 2, 3.999, false, 0},
     {"cylinder behind", CYLINDER, {{3, 0, 0}, {1, 0, 0}}, 0, INFINITY, false, 0},
@@ -341,22 +426,16 @@ static void check_apex(void **state) {
     }
 }
 
-/* As far as the shape goes a ray may run by it; what has no end adds nothing, and no infinity. */
-static void check_endless(void **state) {
+/* Of a sphere so small that the ray meets its centre there is no normal either. */
+static void check_small_sphere(void **state) {
     (void)state;
-    const vec3 axes[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-    for (size_t i = 0; i < COUNT(endless); i++)
-        for (int k = 0; k < 3; k++) {
-            struct alone a;
-            struct crossing crossing;
-            alone_quadric(&a, &endless[i], AFFINE_IDENTITY);
-            const ray r = {vec3_scale(axes[k], 9), vec3_neg(axes[k])};
-            if (!shape_first_crossing(&a.p, a.ref, r, 0, INFINITY, &crossing)) continue;
-            const struct surface got = shape_surface(&a.p, a.ref, r, crossing);
-            assert_vec3_near(got.point, axes[k], 1e-15, "point");
-            assert_vec3_near(got.normal, axes[k], 1e-15, "normal");
-            assert_true(got.error > 0 && got.error < 1e-13);
-        }
+    struct alone a;
+    alone_sphere(&a, (vec3){1e6, 0, 0}, 1e-15);
+    const ray r = {{1e6 - 3, 0, 0}, {2, 0, 0}};
+    const struct surface got = shape_surface(&a.p, a.ref, r, (struct crossing){1.5, SHAPE_SIDE});
+    assert_vec3_near(got.normal, (vec3){-1, 0, 0}, 0, "normal");
+    assert_vec3_near(got.point, (vec3){1e6, 0, 0}, 0, "point");
+    assert_near(got.error, 16 * 0x1p-52 * 1e6, 1e-15, "error");
 }
 
 static struct contains_row {
@@ -479,6 +558,85 @@ static void check_bounds_of_scaled_hits(void **state) {
     }
 }
 
+/* ---- Room for rounding ---- */
+
+/* A map of whole numbers with an inverse of whole numbers, and powers of two: nothing here is rounded. */
+static affine exact_map(struct random *r, affine *inverse) {
+    affine map = affine_scale((vec3){1, -2, 0.25});
+    *inverse = affine_scale((vec3){1, -0.5, 4});
+    for (int i = 0; i < 4; i++) {
+        const unsigned to = random_below(r, 3), from = (to + 1 + random_below(r, 2)) % 3;
+        affine step = AFFINE_IDENTITY, back = AFFINE_IDENTITY;
+        step.m[to][from] = random_below(r, 5) - 2.0;
+        back.m[to][from] = -step.m[to][from];
+        map = affine_compose(step, map);
+        *inverse = affine_compose(*inverse, back);
+    }
+    const vec3 by = {random_below(r, 9) - 4.0, random_below(r, 9) - 4.0, random_below(r, 9) - 4.0};
+    *inverse = affine_compose(*inverse, affine_translate(vec3_neg(by)));
+    return affine_compose(affine_translate(by), map);
+}
+
+static box3 corners_of(box3 box, const affine *map) {
+    box3 all = BOX3_EMPTY;
+    for (int i = 0; i < 8; i++)
+        all = box3_add_point(
+            all, affine_point(map, (vec3){i & 1 ? box.max.x : box.min.x, i & 2 ? box.max.y : box.min.y,
+                                          i & 4 ? box.max.z : box.min.z}));
+    return all;
+}
+
+/* That `got` is larger on each side by 16 units of all numbers that bring a point to object space and back. */
+static void check_room(box3 got, box3 exact, const affine *map, const affine *inverse) {
+    const double *low[] = {&exact.min.x, &exact.min.y, &exact.min.z},
+                 *high[] = {&exact.max.x, &exact.max.y, &exact.max.z};
+    const double *min[] = {&got.min.x, &got.min.y, &got.min.z}, *max[] = {&got.max.x, &got.max.y, &got.max.z};
+    double there[3];
+    for (int i = 0; i < 3; i++) {
+        there[i] = fabs(inverse->m[i][3]);
+        for (int j = 0; j < 3; j++) there[i] += fabs(inverse->m[i][j]) * fmax(fabs(*low[j]), fabs(*high[j]));
+    }
+    for (int i = 0; i < 3; i++) {
+        double terms = fabs(map->m[i][3]);
+        for (int j = 0; j < 3; j++) terms += fabs(map->m[i][j]) * there[j];
+        const double want = 16 * 0x1p-52 * terms, last = 0x1p-52 * fmax(fabs(*low[i]), fabs(*high[i]));
+        assert_near(*low[i] - *min[i], want, last, "room below");
+        assert_near(*max[i] - *high[i], want, last, "room above");
+    }
+}
+
+static void check_room_for_rounding(void **state) {
+    (void)state;
+    struct random r = random_begin();
+    for (int i = 0; i < 1000; i++) {
+        struct alone a;
+        affine inverse;
+        const affine map = exact_map(&r, &inverse);
+        a = (struct alone){.ref = primitive_ref_make(PRIMITIVE_QUADRIC, 0),
+                           .quadric = {inverse, map, &forms[CUBE]}};
+        a.p.quadrics = &a.quadric;
+        check_room(shape_bounds(&a.p, a.ref), corners_of(forms[CUBE].extent, &map), &map, &inverse);
+        a = (struct alone){.ref = primitive_ref_make(PRIMITIVE_FLAT, 0), .flat = {inverse, map, FLAT_SQUARE}};
+        a.p.flats = &a.flat;
+        check_room(shape_bounds(&a.p, a.ref), corners_of((box3)BOX(-0.5, -0.5, 0, 0.5, 0.5, 0), &map), &map,
+                   &inverse);
+        const vec3 from = {random_below(&r, 9) - 6.0, random_below(&r, 9) - 6.0, random_below(&r, 9) - 6.0};
+        const box3 box = {from, vec3_add(from, (vec3){1, random_below(&r, 3), 4})};
+        const struct instance placed = {inverse, map, NULL, 0};
+        check_room(shape_placed_bounds(&placed, box), corners_of(box, &map), &map, &inverse);
+        const box3 none = shape_placed_bounds(&placed, BOX3_EMPTY);
+        assert_memory_equal(&none, &BOX3_EMPTY, sizeof none);
+        /* of a sphere in the world, of its own numbers alone */
+        const double radius = 1 + random_below(&r, 4),
+                     far = fmax(fabs(from.x), fmax(fabs(from.y), fabs(from.z)));
+        alone_sphere(&a, from, radius);
+        const box3 got = shape_bounds(&a.p, a.ref);
+        const vec3 room = vec3_all(radius + 16 * 0x1p-52 * (far + radius));
+        assert_vec3_near(got.min, vec3_sub(from, room), 0x1p-52 * (far + radius), "sphere, min");
+        assert_vec3_near(got.max, vec3_add(from, room), 0x1p-52 * (far + radius), "sphere, max");
+    }
+}
+
 /* What has no end reaches endlessly, along an axis too. */
 static void check_endless_support(void **state) {
     (void)state;
@@ -490,6 +648,62 @@ static void check_endless_support(void **state) {
             const vec3 d = {k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1};
             if (vec3_max_abs(d) > 0.0) assert_true(shape_support(&a.p, a.ref, d) == INFINITY);
         }
+}
+
+/* As far as the shape goes a ray may run by it; what has no end adds nothing, and no infinity. */
+static void check_endless(void **state) {
+    (void)state;
+    struct random r = random_begin();
+    for (unsigned i = 0; i < 100 * COUNT(endless) * 6; i++) {
+        const struct quadric_form *form = &endless[i % COUNT(endless)];
+        const int face = (int)(i / COUNT(endless) % 6), axis = face / 2;
+        const vec3 width = vec3_sub(form->extent.max, form->extent.min);
+        const double widths[] = {width.x, width.y, width.z}, side = face % 2 ? 1 : -1;
+        if (isinf(widths[axis])) continue;
+        struct alone a = {.ref = primitive_ref_make(PRIMITIVE_QUADRIC, 0), .quadric = {.form = form}};
+        a.p.quadrics = &a.quadric;
+        const affine map = a.quadric.world_from_object = exact_map(&r, &a.quadric.object_from_world);
+        const double *row = a.quadric.object_from_world.m[axis];
+        const vec3 out = vec3_scale((vec3){axis == 0, axis == 1, axis == 2}, side),
+                   point = affine_point(&map, out);
+        const ray to = {affine_point(&map, vec3_scale(out, 9)), affine_direction(&map, vec3_neg(out))};
+        const struct surface got =
+            shape_surface(&a.p, a.ref, to, (struct crossing){8, SHAPE_CUT_MIN_X + face});
+        const double world[] = {point.x, point.y, point.z};
+        double size = fabs(row[3]), slope2 = 0;
+        for (int j = 0; j < 3; j++) {
+            double far = fabs(world[j]);
+            for (int k = 0; k < 3; k++) far += isinf(widths[k]) ? 0 : fabs(map.m[j][k]) * widths[k];
+            size += fabs(row[j]) * far;
+            slope2 += row[j] * row[j];
+        }
+        const double want = 16 * 0x1p-52 * (size + 1 + 1) / sqrt(slope2);
+        assert_vec3_near(got.point, point, 0, "point");
+        assert_vec3_near(got.normal, vec3_scale((vec3){row[0], row[1], row[2]}, side / sqrt(slope2)), 1e-15,
+                         "normal");
+        assert_near(got.error, want, 1e-9 * want, "error");
+    }
+}
+
+/* Of what has no sections about z, no more is known than its extent: its corners reach farthest. */
+static void check_extents(void **state) {
+    (void)state;
+    struct random r = random_begin();
+    for (unsigned i = 0; i < 1000; i++) {
+        struct quadric_form form = leaning[i % COUNT(leaning)];
+        const vec3 from = {random_below(&r, 9) - 6.0, random_below(&r, 9) - 6.0, random_below(&r, 9) - 6.0};
+        form.extent = (box3){from, vec3_add(from, (vec3){1, 1 + random_below(&r, 3), 4})};
+        struct alone a = {.ref = primitive_ref_make(PRIMITIVE_QUADRIC, 0), .quadric = {.form = &form}};
+        a.p.quadrics = &a.quadric;
+        a.quadric.world_from_object = exact_map(&r, &a.quadric.object_from_world);
+        vec3 d = random_vec3(&r, -1, 1);
+        if (i % 4 == 0) d = vec3_mul(d, (vec3){i % 3 == 0, i % 3 == 1, i % 3 == 2});
+        const affine along =
+            affine_compose((affine){{{d.x, d.y, d.z, 0}, {0}, {0}}}, a.quadric.world_from_object);
+        assert_near(shape_support(&a.p, a.ref, d), corners_of(form.extent, &along).max.x, 1e-12, "reach");
+        check_room(shape_bounds(&a.p, a.ref), corners_of(form.extent, &a.quadric.world_from_object),
+                   &a.quadric.world_from_object, &a.quadric.object_from_world);
+    }
 }
 
 /* An instance is no shape: what it places is met elsewhere. */
@@ -515,7 +729,7 @@ static void check_instance(void **state) {
 
 int main(void) {
     struct CMUnitTest tests[COUNT(crossing_rows) + COUNT(first_rows) + COUNT(surface_rows) +
-                            COUNT(contains_rows) + COUNT(bounds_rows) + 7];
+                            COUNT(contains_rows) + COUNT(bounds_rows) + 12];
     size_t n = 0;
     for (size_t i = 0; i < COUNT(crossing_rows); i++)
         tests[n++] =
@@ -525,6 +739,11 @@ int main(void) {
     for (size_t i = 0; i < COUNT(surface_rows); i++)
         tests[n++] = (struct CMUnitTest){surface_rows[i].name, check_surface, NULL, NULL, &surface_rows[i]};
     tests[n++] = (struct CMUnitTest){"edges, from either side", check_edges, NULL, NULL, NULL};
+    tests[n++] = (struct CMUnitTest){"the edge of a square", check_edge_of_square, NULL, NULL, NULL};
+    tests[n++] = (struct CMUnitTest){"the faces of a box", check_faces, NULL, NULL, NULL};
+    tests[n++] = (struct CMUnitTest){"a sphere like a point", check_small_sphere, NULL, NULL, NULL};
+    tests[n++] = (struct CMUnitTest){"room for rounding", check_room_for_rounding, NULL, NULL, NULL};
+    tests[n++] = (struct CMUnitTest){"extents", check_extents, NULL, NULL, NULL};
     tests[n++] = (struct CMUnitTest){"no end, along any direction", check_endless_support, NULL, NULL, NULL};
     tests[n++] = (struct CMUnitTest){"an instance", check_instance, NULL, NULL, NULL};
     tests[n++] = (struct CMUnitTest){"the apex of a cone has a normal", check_apex, NULL, NULL, NULL};

@@ -60,9 +60,9 @@ static double rounding_at(const struct subject *s, int part, vec3 p, double slop
 /* Sixteen units are counted in each (ROUNDING), and little more than that. Where the surface is nearly singular it is all
  * but linear: the error is some part of its size. */
 static void check_error(const struct subject *s, double error, double unit) {
-    const double least = s->kind == SQUARE ? 7.9 : 15.9; /* its extent is twice as wide as it is */
+    const double most = s->kind > SPHERE ? 16.1 : 40; /* of a flat it is linear everywhere */
     if (error > 1e-6 * step_of(s)) return;
-    if (!(error >= least * unit && error < 40 * unit + 1e-26 * s->length))
+    if (!(error >= 15.9 * unit && error < most * unit + 1e-26 * s->length))
         fail_msg("error of %g, %g units", error, error / unit);
 }
 
@@ -514,6 +514,116 @@ static void check_support(void **state) {
     }
 }
 
+/* x^2 and y^2 may be up to this at height z. */
+static double section_at(const struct quadric_form *f, double z) {
+    return -((f->zz * z + f->z) * z + f->constant);
+}
+
+/* What has ellipses about z as its sections: an upright form cut to a slab, or to where it ends by itself. */
+static void random_upright(struct quadric_form *f) {
+    double low, high;
+    do {
+        *f = (struct quadric_form){.xx = uniform(0.2, 3),
+                                   .yy = uniform(0.2, 3),
+                                   .zz = coefficient(),
+                                   .z = coefficient(),
+                                   .constant = uniform(-2, 0.5)};
+        low = uniform(-2, 1);
+        high = low + uniform(0.1, 2);
+        const double disc = f->z * f->z - 4 * f->zz * f->constant;
+        if (f->zz > 0 && disc > 0 && chance(0.3)) low = -0.5 * (f->z + sqrt(disc)) / f->zz;
+        if (f->zz > 0 && disc > 0 && chance(0.3)) high = -0.5 * (f->z - sqrt(disc)) / f->zz;
+    } while (!(low < high && section_at(f, low) > -1e-12 && section_at(f, high) > -1e-12));
+    f->clip = (box3)SLAB(low, high);
+    f->extent = (box3)BOX(-99, -99, low, 99, 99, high);
+}
+
+/* How far its points reach along the direction, which is of object space; -INFINITY where it has none. */
+static double upright_reach(const struct quadric_form *f, vec3 d) {
+    double most = -INFINITY;
+    for (int k = 0; k <= 500; k++) {
+        const double z = f->extent.min.z + (f->extent.max.z - f->extent.min.z) * k / 500;
+        if (!(section_at(f, z) > -1e-12)) continue;
+        const double section = fmax(section_at(f, z), 0);
+        for (int i = 0; i < 90; i++) {
+            const double turn = i * 0.069813170079773182; /* 4 degrees */
+            const vec3 p = {sqrt(section / f->xx) * cos(turn), sqrt(section / f->yy) * sin(turn), z};
+            most = box3_upper(most, vec3_dot(p, d));
+        }
+    }
+    return most;
+}
+
+static void check_upright(void **state) {
+    (void)state;
+    begin(SUBJECT_COUNT + 1);
+    for (int i = 0; i < 500; i++) {
+        struct quadric_form form;
+        struct alone a;
+        random_upright(&form);
+        alone_quadric(&a, &form, AFFINE_IDENTITY);
+        const vec3 d = i % 7 ? random_unit() : (vec3){i % 3 == 0, i % 3 == 1, i % 3 == 2};
+        const double most = upright_reach(&form, d), least = -upright_reach(&form, vec3_neg(d));
+        const double got = shape_support(&a.p, a.ref, d), room = 2e-3 * (most - least) + 1e-12;
+        if (!(got >= most - 1e-12 && got <= most + room))
+            fail_msg("form %d reaches %g, not %g", i, got, most);
+        a.quadric.world_from_object = (affine){{{d.x, d.y, d.z, 0}, {0, 0, 0, 0}, {0, 0, 0, 0}}};
+        a.quadric.object_from_world =
+            (affine){{{d.x, 0, 0, 0}, {d.y, 0, 0, 0}, {d.z, 0, 0, 0}}}; /* of a point on d */
+        const box3 bounds = shape_bounds(&a.p, a.ref);
+        assert_true(bounds.min.x <= least && bounds.min.x >= least - room);
+        assert_true(bounds.max.x >= most && bounds.max.x <= most + room);
+    }
+}
+
+/* The rounding of what an instance places, and how far its maps are from each other's inverse, in long double. */
+static void check_placed_surfaces(void **state) {
+    (void)state;
+    begin(SUBJECT_COUNT + 2);
+    for (int i = 0; i < 20000; i++) {
+        struct instance placed = {.world_from_object = random_map(false)};
+        if (!affine_invert(placed.world_from_object, &placed.object_from_world)) continue;
+        const affine *back = &placed.object_from_world, *there = &placed.world_from_object;
+        const bool gap = chance(0.5), bounded = chance(0.5);
+        if (gap) *(affine *)back = affine_compose(affine_translate(vec3_scale(random_unit(), 1e-3)), *back);
+        const box3 any = {vec3_scale(random_unit(), uniform(1, 9)), {9, 9, 9}};
+        const box3 extent = bounded ? any : chance(0.5) ? BOX3_EMPTY : BOX3_ALL;
+        struct surface of = {vec3_scale(random_unit(), power_of_ten(-3, 1)), random_unit(), 0};
+        if (chance(0.5)) of.error = 1e-3 * uniform(0, 1);
+        const struct surface got = shape_placed_surface(&placed, &of, extent);
+        const vec3 width = bounded ? vec3_sub(extent.max, extent.min) : (vec3){0, 0, 0};
+        const double n[] = {of.normal.x, of.normal.y, of.normal.z},
+                     p[] = {of.point.x, of.point.y, of.point.z}, w[] = {width.x, width.y, width.z},
+                     world[] = {got.point.x, got.point.y, got.point.z};
+        long double off = 0, terms = 0, normal2 = 0, drift = 0, size = 0;
+        vec3 along = {0, 0, 0};
+        for (int k = 0; k < 3; k++) {
+            long double at = -(long double)p[k] + back->m[k][3], sum = fabs(back->m[k][3]), column = 0;
+            long double to = there->m[k][3];
+            for (int j = 0; j < 3; j++) {
+                long double far = fabs(world[j]);
+                for (int l = 0; l < 3; l++) far += fabsl((long double)there->m[j][l] * w[l]);
+                at += (long double)back->m[k][j] * world[j];
+                sum += fabsl(back->m[k][j] * far);
+                column += (long double)back->m[j][k] * n[j];
+                to += (long double)there->m[k][j] * p[j];
+                size = fmaxl(size, fabsl((long double)there->m[k][j] * p[j]));
+            }
+            off += n[k] * at;
+            terms += fabs(n[k]) * sum;
+            normal2 += column * column;
+            *(k == 0 ? &along.x : k == 1 ? &along.y : &along.z) = (double)column;
+            drift = fmaxl(drift, fabsl(to - world[k]));
+            size = fmaxl(size, fabs(there->m[k][3]));
+        }
+        assert_true(drift < 1e-15L * size);
+        const double want = (double)((of.error + fabsl(off) + 16 * 0x1p-52L * terms) / sqrtl(normal2));
+        if (!(fabs(got.error - want) <= 0.1 * want)) fail_msg("error of %g, not %g", got.error, want);
+        const vec3 turn = vec3_sub(got.normal, vec3_scale(along, (double)(1 / sqrtl(normal2))));
+        assert_true(vec3_max_abs(turn) < 1e-12);
+    }
+}
+
 static int kinds[SUBJECT_COUNT];
 static struct CMUnitTest tests[12 * SUBJECT_COUNT];
 static char names[12 * SUBJECT_COUNT][64];
@@ -547,6 +657,8 @@ int main(void) {
         add_test("its reach", check_support, kind);
     }
     add_test("crossings against a walk, random quadrics", check_any_quadric, -1);
+    add_test("reach and bounds, random upright quadrics", check_upright, -1);
+    add_test("points, normals and errors that are placed", check_placed_surfaces, -1);
     add_test("no crack between squares", check_crack, -1);
     add_test("no crack between squares that are grazed", check_grazed_crack, -1);
     return _cmocka_run_group_tests("shape_random", tests, test_count, NULL, NULL);
