@@ -21,7 +21,7 @@ static float float_from_bits(uint32_t bits) {
 static uint16_t quick_code(const struct encoder *encoder, float linear) {
     uint8_t bytes[2] = {0, 0};
     encoder_bytes(encoder, &linear, 1, bytes);
-    return encoder->bits == 8 ? bytes[0] : (uint16_t)(bytes[0] << 8 | bytes[1]);
+    return (uint16_t)(encoder->bits == 8 ? bytes[0] : bytes[0] << 8 | bytes[1]);
 }
 
 /* ---- Single values, by encode_channel and by an encoder ---- */

@@ -167,7 +167,7 @@ static void test_shadow_against_pictures(void **state) {
     struct random r = random_begin();
     int lit = 0, dark = 0;
     for (int round = 0; round < 6; round++) {
-        char shapes[3000] = "", lamps[LAMPS][200], text[4500];
+        char shapes[3000] = "", lamps[LAMPS][200], text[6000];
         size_t used = 0;
         const vec3 at = random_vec3(&r, -40, 40);
         for (int i = 0; i < 12; i++) {

@@ -668,7 +668,7 @@ static void check_endless(void **state) {
                    point = affine_point(&map, out);
         const ray to = {affine_point(&map, vec3_scale(out, 9)), affine_direction(&map, vec3_neg(out))};
         const struct surface got =
-            shape_surface(&a.p, a.ref, to, (struct crossing){8, SHAPE_CUT_MIN_X + face});
+            shape_surface(&a.p, a.ref, to, (struct crossing){8, (enum shape_part)(SHAPE_CUT_MIN_X + face)});
         const double world[] = {point.x, point.y, point.z};
         double size = fabs(row[3]), slope2 = 0;
         for (int j = 0; j < 3; j++) {
