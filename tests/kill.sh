@@ -26,7 +26,7 @@ batch() { "$monge" render s -o p/ --resume -j 2 --threads $((RANDOM % 3 + 1)) >s
 
 mkdir s versions
 samples=1; scenes 1
-samples=$(samples_for 1.5 s/long.yaml)
+samples=$(samples_for 3.5 s/long.yaml) # on two threads more than the second between two checkpoints
 for version in 1 2; do
     scenes $version
     begun=$(date +%s%N)
@@ -77,6 +77,7 @@ finish
 version=$((3 - version)); scenes $version # all pictures are of before now, and as fresh as they can be
 finish
 [ $during -eq "$kills" ] || fail "only $during of $((n - 1)) runs were at work when they were killed"
+[ "$kills" -lt 50 ] || [ $resumed -gt 0 ] || fail "no run went on from a checkpoint"
 echo "kill: $during of $((n - 1)) runs killed at work, $mixed with pictures of both versions, $resumed runs went on from checkpoints"
 [ -z "$(find p -name '*.tmp')" ] || echo "kill: $(find p -name '*.tmp' | wc -l) temporary files"
 told
