@@ -10,6 +10,7 @@
 #include "base/json.h"
 #include "base/parallel.h"
 #include "base/program.h"
+#include "base/wrap.h"
 #include "face.h"
 #include "image/pixels.h"
 #include "image/png.h"
@@ -84,6 +85,9 @@ bool monge_explain(const char *code, FILE *out) {
 }
 
 void monge_write_json_string(const char *text, FILE *out) { json_string(text, out); }
+void monge_write_wrapped(const char *text, int column, int indent, FILE *out) {
+    wrap_print(out, text, column, indent);
+}
 
 /* ---- Settings ---- */
 

@@ -95,6 +95,10 @@ bool monge_explain(const char *code, FILE *out);
 /* A text as a JSON string, in quotes; what is no UTF-8 in it becomes U+FFFD. */
 void monge_write_json_string(const char *text, FILE *out);
 
+/* The words of a text in lines of 80 columns, from `column` on, where the cursor is; further lines begin at `indent`. Ends
+ * the last one. */
+void monge_write_wrapped(const char *text, int column, int indent, FILE *out);
+
 /* ---- Scenes ---- */
 
 /* What one load may use. Past a limit the load ends with an error that names it. 0: the default. */

@@ -8,26 +8,7 @@
 #include "cli/suggest.h"
 #include "monge.h"
 
-enum { LINE_WIDTH = 80, DOC_COLUMN = 34 };
-
-/* Prints words from `column` on, where the cursor is, with new lines that begin at `indent`. */
-static void print_wrapped(FILE *out, const char *text, int column, int indent) {
-    for (bool first = true; *text; first = false) {
-        const int length = (int)strcspn(text, " ");
-        if (!first && column + 1 + length > LINE_WIDTH) {
-            fprintf(out, "\n%*s", indent, "");
-            column = indent;
-        } else if (!first) {
-            fputc(' ', out);
-            column++;
-        }
-        fprintf(out, "%.*s", length, text);
-        column += length;
-        text += length;
-        text += strspn(text, " ");
-    }
-    fputc('\n', out);
-}
+enum { DOC_COLUMN = 34 };
 
 /* "  left    doc", the doc on a line of its own where `left` is long. */
 static void print_row(FILE *out, const char *left, const char *doc) {
@@ -37,7 +18,7 @@ static void print_row(FILE *out, const char *left, const char *doc) {
         fprintf(out, "%s%*s", left, gap, "");
     else
         fprintf(out, "%s\n%*s", left, DOC_COLUMN, "");
-    print_wrapped(out, doc, DOC_COLUMN, DOC_COLUMN);
+    monge_write_wrapped(doc, DOC_COLUMN, DOC_COLUMN, out);
 }
 
 char *help_option_doc(enum option_id option, char *text, size_t size) {
@@ -65,7 +46,7 @@ static void print_options(FILE *out, enum command_id command) {
 static void print_overview(FILE *out) {
     fprintf(out, "Monge %s %s.\n\nusage: monge COMMAND [ARGUMENT...]\n\n", monge_version(),
             COMMAND_TABLE[COMMAND_NONE].doc);
-    print_wrapped(out, COMMAND_TABLE[COMMAND_NONE].text[0], 0, 0);
+    monge_write_wrapped(COMMAND_TABLE[COMMAND_NONE].text[0], 0, 0, out);
     fputs("\ncommands:\n", out);
     for (enum command_id c = COMMAND_NONE + 1; c < COMMANDS; c++) {
         char left[64];
@@ -77,7 +58,7 @@ static void print_overview(FILE *out) {
           "`monge help --man` is the manual page.\nExit status:\n",
           out);
     for (int s = 0; s <= STATUS_TROUBLE; s++) fprintf(out, "  %d  %s\n", s, STATUS_DOC[s]);
-    print_wrapped(out, SIGNAL_DOC, 0, 0);
+    monge_write_wrapped(SIGNAL_DOC, 0, 0, out);
 }
 
 static bool is_kind(const char *word) {
@@ -91,7 +72,7 @@ static void print_command(FILE *out, enum command_id command) {
     fprintf(out, "usage: monge %s%s%s [OPTION...]\n", row->name, *row->operands ? " " : "", row->operands);
     for (int i = 0; row->text[i]; i++) {
         fputc('\n', out);
-        print_wrapped(out, row->text[i], 0, 0);
+        monge_write_wrapped(row->text[i], 0, 0, out);
     }
     print_options(out, command);
     fputs("\nexamples:\n", out);
