@@ -662,6 +662,12 @@ for samples in 4 16 64 256 1024; do
 done
 ok 'a bar, which is gone in the end' grep -qE $'^\r[1-4] of [45] pictures  two-000[12]  \\[.*\r +\r$' <(tr -d '\n' <err; echo)
 
+if have script; then
+    script -qec "'$monge' test s --golden g -j 1 --threads 1 --progress always" /dev/null </dev/null >terminal 2>&1
+    ok 'a bar on the terminal' grep -q 'pictures  two' terminal
+    ok 'what is told has lines of its own' sh -c '! tr "\r" "\n" <terminal | grep -q "\].*two-000"'
+fi
+
 # ---- What is in tools/ci ----
 
 fresh 'root: ../s' 'kind: hash'

@@ -1,7 +1,7 @@
 # perl signalled.pl SIGNAL CONDITION COMMAND...: runs the command, and sends it the signal as soon as it has a handler for
 # signals and then the shell command CONDITION succeeds. File descriptor 3 gets what waitpid has of it, and the seconds that
-# it took. Not empty, IGNORED: it ignores SIGINT from the beginning; EARLY: it need not have a handler; TWICE: the signal is
-# sent twice. THEN: a shell command for after it.
+# it took. Not empty, IGNORED: it ignores SIGINT from the beginning; EARLY: it need not have a handler. AND: another
+# signal, for at once after it (the same one would be lost while it waits). THEN: a shell command for after it.
 use strict;
 use Time::HiRes qw(sleep time);
 use POSIX ":sys_wait_h";
@@ -31,7 +31,7 @@ for my $ready (\&catches, sub { system("sh", "-c", $condition) == 0 }) {
     }
 }
 if (!$ended) {
-    kill $signal, $pid for 1 .. ($ENV{TWICE} ? 2 : 1);
+    kill $_, $pid for $signal, $ENV{AND} || ();
     system $ENV{THEN} if $ENV{THEN};
     $SIG{ALRM} = sub { kill "KILL", $pid };
     alarm 60; # one that does not end fails the test, and does not stay
