@@ -128,7 +128,7 @@ coverage: deps node-deps ## the tests with gcc's line coverage, per file of src/
 	+@$(SUBMAKE) run-tests CC=gcc CFLAGS="-O0 -g" BUILD=$(BUILD)/coverage VARIANT="--coverage -fprofile-update=atomic"
 	@tools/coverage $(BUILD)/coverage 90
 
-bench: all ## measure reading beside libyaml, and rendering
+bench: all ## measure reading beside libyaml, rendering, and comparing beside odiff
 	+@$(SUBMAKE) $(BUILD)/tools/measure $(BUILD)/tools/yaml_events
 	@tools/bench $(BUILD)
 
