@@ -60,6 +60,52 @@ static const char *grammar_default(const struct node *root, const char *kind, co
     return root->kind == NODE_SEQUENCE ? root->first->text : root->text;
 }
 
+static void check_default_numbers(const struct node *root, const struct scene *scene) {
+    const struct monge_settings *s = &scene->settings;
+    const struct material *m = &scene->materials[0];
+    const struct {
+        const char *kind, *key;
+        double got;
+    } numbers[] = {
+        {"image", "size", s->width},
+        {"image", "samples", s->samples},
+        {"image", "bits", s->bits},
+        {"render", "depth", s->depth},
+        {"render", "shadow", s->shadow},
+        {"camera", "fov", scene->camera.fov_deg},
+        {"material", "ambient", m->ambient.x},
+        {"material", "specular", m->specular.y},
+        {"material", "shininess", m->shininess},
+        {"material", "reflection", m->reflection.z},
+        {"material", "refraction", m->refraction.x},
+        {"material", "index", m->index},
+        {"sphere", "radius", scene->primitives.spheres[0].radius},
+        {"sphere", "center", scene->primitives.spheres[0].center.x},
+    };
+    for (size_t i = 0; i < COUNT(numbers); i++)
+        assert_near(numbers[i].got, strtod(grammar_default(root, numbers[i].kind, numbers[i].key), NULL), 0,
+                    numbers[i].key);
+}
+
+static void check_default_words(const struct node *root, const struct scene *scene) {
+    static const char *const shadings[] = {[MONGE_SHADING_PHONG] = "phong",
+                                           [MONGE_SHADING_DIFFUSE] = "diffuse",
+                                           [MONGE_SHADING_SIGNATURE] = "signature"};
+    const struct monge_settings *s = &scene->settings;
+    const struct {
+        const char *kind, *key, *got;
+    } words[] = {
+        {"image", "encoding", s->encoding == MONGE_ENCODING_SRGB ? "srgb" : "linear"},
+        {"render", "shading", shadings[s->shading]},
+        {"render", "two_sided", scene->two_sided ? "true" : "false"},
+        {"render", "highlight", scene->highlight_always ? "always" : "lit"},
+        {"camera", "projection",
+         scene->camera.projection == CAMERA_PERSPECTIVE ? "perspective" : "orthographic"},
+    };
+    for (size_t i = 0; i < COUNT(words); i++)
+        assert_string_equal(words[i].got, grammar_default(root, words[i].kind, words[i].key));
+}
+
 static void defaults_are_those_of_the_grammar(void **state) {
     (void)state;
     struct loaded l;
@@ -71,50 +117,12 @@ static void defaults_are_those_of_the_grammar(void **state) {
     assert_non_null(source);
     const struct node *root = node_parse(&arena, &diag, source, &limits, NULL, &problem);
     load_good(&l, "scene: [{sphere: {}, material: {}}]");
-    const struct monge_settings *s = &l.scene.settings;
-    const struct material *m = &l.scene.materials[0];
-    const struct number_row {
-        const char *kind, *key;
-        double got;
-    } numbers[] = {
-        {"image", "size", s->width},
-        {"image", "samples", s->samples},
-        {"image", "bits", s->bits},
-        {"render", "depth", s->depth},
-        {"render", "shadow", s->shadow},
-        {"camera", "fov", l.scene.camera.fov_deg},
-        {"material", "ambient", m->ambient.x},
-        {"material", "specular", m->specular.y},
-        {"material", "shininess", m->shininess},
-        {"material", "reflection", m->reflection.z},
-        {"material", "refraction", m->refraction.x},
-        {"material", "index", m->index},
-        {"sphere", "radius", l.scene.primitives.spheres[0].radius},
-        {"sphere", "center", l.scene.primitives.spheres[0].center.x},
-    };
-    for (size_t i = 0; i < COUNT(numbers); i++)
-        assert_near(numbers[i].got, strtod(grammar_default(root, numbers[i].kind, numbers[i].key), NULL), 0,
-                    numbers[i].key);
-    const struct word_row {
-        const char *kind, *key, *got;
-    } words[] = {
-        {"image", "encoding", s->encoding == MONGE_ENCODING_SRGB ? "srgb" : "linear"},
-        {"render", "shading",
-         s->shading == MONGE_SHADING_PHONG     ? "phong"
-         : s->shading == MONGE_SHADING_DIFFUSE ? "diffuse"
-                                               : "signature"},
-        {"render", "two_sided", l.scene.two_sided ? "true" : "false"},
-        {"render", "highlight", l.scene.highlight_always ? "always" : "lit"},
-        {"camera", "projection",
-         l.scene.camera.projection == CAMERA_PERSPECTIVE ? "perspective" : "orthographic"},
-    };
-    for (size_t i = 0; i < COUNT(words); i++)
-        assert_string_equal(words[i].got, grammar_default(root, words[i].kind, words[i].key));
+    check_default_numbers(root, &l.scene);
+    check_default_words(root, &l.scene);
+    const struct camera *c = &l.scene.camera;
     assert_true(l.scene.default_lights && l.scene.light_count == 0);
-    assert_false(l.scene.camera.has_eye || l.scene.camera.has_look_at || l.scene.camera.has_up ||
-                 l.scene.camera.has_height);
-    assert_vec3_near(l.scene.camera.up, (vec3){0, 1, 0}, 0, "up");
-
+    assert_false(c->has_eye || c->has_look_at || c->has_up || c->has_height);
+    assert_vec3_near(c->up, (vec3){0, 1, 0}, 0, "up");
     unload(&l);
     arena_free(&arena);
     diag_free(&diag);
