@@ -58,7 +58,7 @@ TOOL_OBJECTS := $(call object,$(wildcard src/base/*.c src/lang/yaml.c src/lang/e
 UNIT_PROGRAMS := $(UNIT:tests/unit/%.c=$(BUILD)/tests/%)
 TESTS := $(wildcard tests/*.sh) $(UNIT_PROGRAMS)
 ifdef T
-UNIT_PROGRAMS := $(filter %/test_$(T:test_%=%),$(UNIT_PROGRAMS))
+UNIT_PROGRAMS := $(filter $(BUILD)/tests/test_$(T:test_%=%),$(UNIT_PROGRAMS))
 TESTS := $(UNIT_PROGRAMS) $(filter tests/$(T) tests/$(T).sh,$(TESTS))
 PROGRAM_OF_TESTS := $(if $(filter %.sh,$(TESTS)),$(PROGRAM))
 else
@@ -87,7 +87,7 @@ demo: deps ## render the scenes of scenes/report/, and the chess board, to out/
 	$(BUILD)/monge render -o out/ scenes/gallery/chess.yaml
 	@echo "The pictures are in $(CURDIR)/out"
 
-test: deps node-deps ## run all tests; T=name runs tests/unit/test_name.c or tests/name.sh alone
+test: deps node-deps ## run all tests; T=name runs tests/unit/test_name.c or tests/name.sh alone, T=name_% all of that name
 	+@$(SUBMAKE) run-tests EXTRA_TESTS=$(if $(T),,tools/includes)
 
 SANITIZE := -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer

@@ -22,7 +22,7 @@ include-outside     a scene of a stranger: tests/unit/test_diagnostics.c
 limit-file-bytes    a file of over 1 GiB: tests/unit/test_diagnostics.c
 limit-instances     a render, which check has not: tests/cli.sh
 limit-memory        a scene of over 8 GiB: tests/unit/test_diagnostics.c
-limit-objects       more primitives than there is memory for: tests/unit/test_scene.c
+limit-objects       more primitives than there is memory for: tests/unit/test_scene_mistakes.c
 limit-pixels        an option: tests/cli.sh
 no-frame            an option: tests/cli.sh
 no-match            no scene: tests/batch.sh

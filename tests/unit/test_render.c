@@ -411,8 +411,28 @@ static void test_straight_down(void **state) {
     assert_vec3(camera_ray(&view, 0.5, 0).dir, (vec3){0, -1, -1}, 1e-15); /* what is far is up */
 }
 
-/* Whatever the file leaves open, all of the scene is in the picture and fills a good part of it: no
- * pixel of the border shows the object, and some pixel within a fifth of it does. */
+/* No pixel of the border shows the object, and some pixel within a fifth of it does. */
+static void check_framed(const char *text) {
+    struct monge_scene *scene = load(text);
+    struct monge_film *film = render(scene, NULL, 1);
+    const struct monge_region r = monge_film_region(film);
+    double border = 0, inner = 0;
+    for (uint32_t y = 0; y < r.height; y++)
+        for (uint32_t x = 0; x < r.width; x++) {
+            const double v = (double)monge_film_pixels(film)[3 * (y * r.width + x)];
+            const uint32_t right = r.width - 1 - x, below = r.height - 1 - y;
+            if (x == 0 || y == 0 || right == 0 || below == 0)
+                border += v;
+            else if (5 * x < r.width || 5 * y < r.height || 5 * right < r.width || 5 * below < r.height)
+                inner += v;
+        }
+    if (border > 0) fail_msg("cut off: %s", text);
+    if (!(inner > 0)) fail_msg("too small: %s", text);
+    monge_film_free(film);
+    monge_scene_free(scene);
+}
+
+/* Whatever the file leaves open, all of the scene is in the picture and fills a good part of it. */
 static void test_framing(void **state) {
     (void)state;
     static const char *const objects[] = {
@@ -443,26 +463,7 @@ static void test_framing(void **state) {
                          "image: {size: [%g, %g], background: black}\nrender: {shading: signature}\ncamera: "
                          "%s\nscene: [%s]\n",
                          sizes[k][0], sizes[k][1], cameras[j], objects[i]);
-                struct monge_scene *scene = load(text);
-                struct monge_film *film = render(scene, NULL, 1);
-                const struct monge_region r = monge_film_region(film);
-                double border = 0, inner = 0;
-                for (uint32_t y = 0; y < r.height; y++)
-                    for (uint32_t x = 0; x < r.width; x++) {
-                        const double v = (double)monge_film_pixels(film)[3 * (y * r.width + x)];
-                        const bool edge = x == 0 || y == 0 || x == r.width - 1 || y == r.height - 1;
-                        const bool near_edge = 5 * x < r.width || 5 * y < r.height ||
-                                               5 * (r.width - 1 - x) < r.width ||
-                                               5 * (r.height - 1 - y) < r.height;
-                        if (edge)
-                            border += v;
-                        else if (near_edge)
-                            inner += v;
-                    }
-                if (border > 0) fail_msg("cut off: %s", text);
-                if (!(inner > 0)) fail_msg("too small: %s", text);
-                monge_film_free(film);
-                monge_scene_free(scene);
+                check_framed(text);
             }
 }
 
