@@ -572,7 +572,7 @@ enum monge_change_kind {
     MONGE_CHANGES
 };
 
-/* `object` is what changed, or the camera: as the newer layers have it, where it is gone as the older have. */
+/* `object` is what changed, as the newer layers have it, or the older ones where it is gone; or the newer camera. */
 struct monge_change {
     enum monge_change_kind kind;
     const struct monge_entry *object; /* NULL: the background, or what is not known */

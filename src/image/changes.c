@@ -467,9 +467,7 @@ static size_t list_changes(const struct inquiry *c, struct monge_change *changes
 static size_t list_camera(const struct inquiry *c, enum monge_change_kind kind, struct monge_change *changes,
                           size_t room) {
     const struct layer_camera *older = &c->layers[OLDER]->camera, *newer = &c->layers[NEWER]->camera;
-    const bool is_gone = older->entry.file && !newer->entry.file;
-    struct monge_change all[] = {{.kind = kind, .object = is_gone ? &older->entry : &newer->entry},
-                                 {.kind = MONGE_CHANGE_OTHERS}};
+    struct monge_change all[] = {{.kind = kind, .object = &newer->entry}, {.kind = MONGE_CHANGE_OTHERS}};
     const size_t count = strcmp(older->others, newer->others) == 0 ? 1 : 2;
     for (uint32_t y = 0; y < c->height; y++)
         for (uint32_t x = 0; x < c->width; x++) {
