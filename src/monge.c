@@ -188,6 +188,20 @@ void monge_film_scene_hash(const struct monge_film *film, char hash[MONGE_HASH_S
     hash_text(&film->scene, hash);
 }
 
+/* What made the picture: all of it, and the camera apart from the rest. */
+static void stamp_layers(struct monge_layers *layers, const struct scene *scene,
+                         const struct monge_settings *settings) {
+    struct scene others = *scene;
+    struct hash given, hash = fingerprint(scene, settings);
+    hash_text(&hash, layers->scene);
+    others.camera = (struct camera){.projection = CAMERA_PERSPECTIVE};
+    hash = fingerprint(&others, settings);
+    hash_text(&hash, layers->camera.others);
+    hash_begin(&given);
+    camera_hash(&scene->camera, &given);
+    hash_text(&given, layers->camera.given);
+}
+
 struct monge_layers *monge_render_layers(struct monge_scene *scene, const struct monge_settings *settings,
                                          const struct monge_region *region, unsigned wanted,
                                          const struct monge_job *job) {
@@ -198,8 +212,7 @@ struct monge_layers *monge_render_layers(struct monge_scene *scene, const struct
     if (!monge_scene_prepare(scene)) return NULL;
     struct monge_layers *layers = layers_new(settings->width, settings->height, *region, wanted);
     if (!layers) return NULL;
-    const struct hash hash = fingerprint(&scene->scene, settings);
-    hash_text(&hash, layers->scene);
+    stamp_layers(layers, &scene->scene, settings);
     if (render_layers(&scene->scene, scene->accel, settings, job ? job : &no_job, layers,
                       job && job->diag ? &job->diag->list : NULL))
         return layers;

@@ -565,14 +565,18 @@ enum monge_change_kind {
     MONGE_CHANGE_MATERIAL,    /* geometry equal, a material of another name */
     MONGE_CHANGE_SHADOW,      /* geometry equal, other lights reach it */
     MONGE_CHANGE_SHADING,     /* geometry equal, and no other reason: its colour, lights, what it mirrors */
+    MONGE_CHANGE_CAMERA,      /* the camera stands elsewhere */
+    MONGE_CHANGE_VIEW,        /* it stands as before: turned, of another angle, height or projection */
+    MONGE_CHANGE_FRAMING,     /* what the scene leaves open of it follows other bounds of the scene */
+    MONGE_CHANGE_OTHERS,      /* beside the camera there is more; of which object is not known */
     MONGE_CHANGES
 };
 
+/* `object` is what changed, as the newer layers have it, or the older ones where it is gone; or the newer camera. */
 struct monge_change {
     enum monge_change_kind kind;
-    const struct monge_entry
-        *object;                /* of the newer layers, of the older where it is gone; NULL: the background */
-    uint64_t pixels;            /* that this made different */
+    const struct monge_entry *object; /* NULL: the background, or what is not known */
+    uint64_t pixels;                  /* that this made different; 0: not known */
     struct monge_region bounds; /* around them, from the top left corner; of what has moved, around where */
 };
 
@@ -580,7 +584,11 @@ struct monge_change {
  * `beyond`. Both sets of layers have the layer object and are of the rendering of their pictures; of the other layers
  * those count that both have. Objects are the same by their names; those without one, or with one name for several, by kind
  * and by what is seen at the same place, then by their order. The first `room` changes, those of most pixels first;
- * *count is how many there are. They point into the layers. False: diag says why, as a failure. */
+ * *count is how many there are. They point into the layers.
+ *
+ * With another camera the passes do not tell which objects moved: then the camera is the first change, and where more
+ * of the scene or its settings has changed, that is the second and last. Layers of files that do not tell their camera
+ * are taken to have the same. False: diag says why, as a failure. */
 bool monge_changes(struct monge_picture *older, const struct monge_layers *older_layers,
                    struct monge_picture *newer, const struct monge_layers *newer_layers,
                    const struct monge_compare *how, struct monge_change *changes, size_t room, size_t *count,

@@ -561,6 +561,35 @@ out_has 'object "ball" (s/one.yaml:5): shading changed, geometry equal'
 out_has 'object "lid" (s/one.yaml:8): geometry moved'
 out_has 'object "floor" (s/one.yaml:11): shadow changed'
 exits 0 accept --golden g; exits 0 test s --golden g
+# another camera: it alone, and no object is accused
+sed -i 's/eye: \[0, 3, 8\]/eye: [0, 3, 7]/' s/one.yaml
+exits 1 test s --golden g --json j.json --report r
+out_has 'camera (s/one.yaml:2): moved'; out_lacks 'object "'; out_lacks 'other changes'
+ok 'results say so too' grep -qF '"changes": ["camera (s/one.yaml:2): moved"]' j.json
+ok 'and the page' grep -qF 'camera (s/one.yaml:2): moved' r/index.html
+scene s/one.yaml blue 1.2; sed -i 's/look_at:/fov: 30, look_at:/' s/one.yaml
+exits 1 test s --golden g
+out_has 'camera (s/one.yaml:2): view changed'; out_has 'other changes too, which cannot be told by object under another camera'
+out_lacks 'object "'
+if have python3; then # a golden of a program that did not tell its camera
+    cp g/one.object.png kept.png
+    python3 - <<'PYTHON'
+import struct
+data = open("g/one.object.png", "rb").read()
+at, kept = 8, data[:8]
+while at < len(data):
+    end = at + 12 + struct.unpack(">I", data[at:at + 4])[0]
+    if not data[at + 8:].startswith(b"monge:camera\0"): kept += data[at:end]
+    at = end
+assert len(kept) < len(data)
+open("g/one.object.png", "wb").write(kept)
+PYTHON
+    exits 1 test s --golden g; out_lacks 'camera ('; out_lacks 'other changes'; out_has 'object "ball" (s/one.yaml:5): geometry moved'
+    cp kept.png g/one.object.png
+fi
+sed -i '/^camera/d' s/one.yaml; exits 1 test s --golden g -q; exits 0 accept --golden g -q
+scene s/one.yaml blue 1.9; sed -i '/^camera/d' s/one.yaml
+exits 1 test s --golden g; out_has "camera: framing by the scene's bounds changed"; out_has 'other changes too'; out_lacks 'object "'
 rm s/one.yaml; exits 1 test s --golden g; exits 0 accept --golden g --prune; missing g/one.object.png
 fresh 'kind: hash' 'rules: [{scenes: "*", aov: true}]'
 exits 0 test s --golden g --update-only-failed -q

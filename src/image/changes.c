@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/arena.h"
+#include "image/camera_change.h"
 
 enum { OLDER, NEWER, SIDES };
 
@@ -461,13 +462,35 @@ static size_t list_changes(const struct inquiry *c, struct monge_change *changes
     return count;
 }
 
+/* ---- The camera ---- */
+
+static size_t list_camera(const struct inquiry *c, enum monge_change_kind kind, struct monge_change *changes,
+                          size_t room) {
+    const struct layer_camera *older = &c->layers[OLDER]->camera, *newer = &c->layers[NEWER]->camera;
+    struct monge_change all[] = {{.kind = kind, .object = &newer->entry}, {.kind = MONGE_CHANGE_OTHERS}};
+    const size_t count = strcmp(older->others, newer->others) == 0 ? 1 : 2;
+    for (uint32_t y = 0; y < c->height; y++)
+        for (uint32_t x = 0; x < c->width; x++) {
+            if (!c->differs[(size_t)y * c->width + x]) continue;
+            all[0].pixels++;
+            extend(&all[0].bounds, x, y);
+        }
+    for (size_t i = 0; i < count && i < room; i++) changes[i] = all[i];
+    return count;
+}
+
 /* ---- All of it ---- */
 
 static bool compare(struct inquiry *c, struct monge_change *changes, size_t room, size_t *count) {
     const size_t pixels = (size_t)c->width * c->height;
+    enum monge_change_kind camera;
     for (int side = 0; side < SIDES; side++) {
         c->object[side] = arena_array(c->arena, pixels, sizeof *c->object[side]);
         if (!index_objects(c, side)) return false;
+    }
+    if (camera_change(&c->layers[OLDER]->camera, &c->layers[NEWER]->camera, &camera)) {
+        *count = list_camera(c, camera, changes, room);
+        return true;
     }
     c->cause = arena_array(c->arena, pixels, sizeof *c->cause);
     c->kind = arena_array(c->arena, pixels, sizeof *c->kind);
@@ -503,9 +526,16 @@ bool changes_find(const struct monge_layers *older, const struct monge_layers *n
 /* ---- Words ---- */
 
 static const char *const kind_words[MONGE_CHANGES] = {
-    [MONGE_CHANGE_GEOMETRY] = "geometry moved", [MONGE_CHANGE_APPEARED] = "appeared",
-    [MONGE_CHANGE_DISAPPEARED] = "disappeared", [MONGE_CHANGE_MATERIAL] = "material changed, geometry equal",
-    [MONGE_CHANGE_SHADOW] = "shadow changed",   [MONGE_CHANGE_SHADING] = "shading changed, geometry equal",
+    [MONGE_CHANGE_GEOMETRY] = "geometry moved",
+    [MONGE_CHANGE_APPEARED] = "appeared",
+    [MONGE_CHANGE_DISAPPEARED] = "disappeared",
+    [MONGE_CHANGE_MATERIAL] = "material changed, geometry equal",
+    [MONGE_CHANGE_SHADOW] = "shadow changed",
+    [MONGE_CHANGE_SHADING] = "shading changed, geometry equal",
+    [MONGE_CHANGE_CAMERA] = "moved",
+    [MONGE_CHANGE_VIEW] = "view changed",
+    [MONGE_CHANGE_FRAMING] = "framing by the scene's bounds changed",
+    [MONGE_CHANGE_OTHERS] = "other changes too, which cannot be told by object under another camera",
 };
 
 /* Spaces for control characters, those of two bytes too: names come from scenes, and this goes to terminals. */
@@ -519,10 +549,14 @@ static void make_harmless(char *text) {
 
 size_t monge_change_text(const struct monge_change *change, char *text, size_t size) {
     const struct monge_entry *o = change->object;
+    const char *words = kind_words[change->kind];
+    if (change->kind == MONGE_CHANGE_OTHERS) return (size_t)snprintf(text, size, "%s", words);
     if (!o) return (size_t)snprintf(text, size, "background: colour changed");
-    const size_t length = (size_t)snprintf(text, size, "%s%s%s (%s:%u): %s", o->name ? "object \"" : o->kind,
-                                           o->name ? o->name : "", o->name ? "\"" : "",
-                                           o->file ? o->file : "", o->line, kind_words[change->kind]);
+    const char *before = o->name ? "object \"" : o->kind, *name = o->name ? o->name : "",
+               *after = o->name ? "\"" : "";
+    const int length =
+        o->file ? snprintf(text, size, "%s%s%s (%s:%u): %s", before, name, after, o->file, o->line, words)
+                : snprintf(text, size, "%s%s%s: %s", before, name, after, words);
     if (size > 0) make_harmless(text);
-    return length;
+    return (size_t)length;
 }

@@ -1,5 +1,6 @@
 #include "image/layer_table.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -31,6 +32,30 @@ char *layer_table_text(const struct layer_entries *entries) {
         fprintf(out, ", \"line\": %u, \"column\": %u}", e->line, e->column);
     }
     fputs("\n]\n", out);
+    const bool good = !ferror(out);
+    if (fclose(out) == 0 && good) return text;
+    free(text);
+    return NULL;
+}
+
+static void write_vec3(FILE *out, const char *before, const char *key, vec3 v) {
+    fprintf(out, "%s\"%s\": [%.17g, %.17g, %.17g]", before, key, v.x, v.y, v.z);
+}
+
+char *layer_camera_text(const struct layer_camera *camera) {
+    const struct view *v = &camera->view;
+    char *text = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&text, &size);
+    if (!out) return NULL;
+    fprintf(out, "{\n  \"projection\": \"%s\"", v->orthographic ? "orthographic" : "perspective");
+    write_vec3(out, ",\n  ", "eye", v->eye);
+    write_vec3(out, ", ", "forward", v->forward);
+    write_vec3(out, ", ", "right", v->right);
+    write_vec3(out, ", ", "up", v->up);
+    fprintf(out, ",\n  \"given\": \"%s\", \"others\": \"%s\"", camera->given, camera->others);
+    write_text(out, "file", camera->entry.file);
+    fprintf(out, ", \"line\": %u, \"column\": %u\n}\n", camera->entry.line, camera->entry.column);
     const bool good = !ferror(out);
     if (fclose(out) == 0 && good) return text;
     free(text);
@@ -155,4 +180,67 @@ bool layer_table_read(const char *text, struct arena *arena, struct layer_entrie
         entries->highest = entry->id;
     } while (take(&s, ","));
     return take(&s, "]") && !*s.at;
+}
+
+/* ---- Reading a camera ---- */
+
+static bool read_real(struct scan *s, double *number) {
+    char *end;
+    *number = strtod(s->at, &end);
+    if (end == s->at || !isfinite(*number)) return false;
+    s->at = end;
+    return take(s, "");
+}
+
+static bool read_vec3(struct scan *s, vec3 *v) {
+    return take(s, "[") && read_real(s, &v->x) && take(s, ",") && read_real(s, &v->y) && take(s, ",") &&
+           read_real(s, &v->z) && take(s, "]");
+}
+
+static bool read_hash(struct scan *s, char hash[HASH_TEXT_SIZE]) {
+    const char *text;
+    if (!read_text(s, &text) || !text || strlen(text) != HASH_TEXT_SIZE - 1) return false;
+    memcpy(hash, text, HASH_TEXT_SIZE);
+    return true;
+}
+
+static bool read_projection(struct scan *s, bool *orthographic) {
+    *orthographic = take(s, "\"orthographic\"");
+    return *orthographic || take(s, "\"perspective\"");
+}
+
+static bool read_camera_member(struct scan *s, struct layer_camera *camera) {
+    struct view *view = &camera->view;
+    const char *const at = s->at, *key;
+    if (*s->at != '"' || !read_text(s, &key) || !take(s, ":")) return false;
+    if (strcmp(key, "projection") == 0) return read_projection(s, &view->orthographic);
+    if (strcmp(key, "eye") == 0) return read_vec3(s, &view->eye);
+    if (strcmp(key, "forward") == 0) return read_vec3(s, &view->forward);
+    if (strcmp(key, "right") == 0) return read_vec3(s, &view->right);
+    if (strcmp(key, "up") == 0) return read_vec3(s, &view->up);
+    if (strcmp(key, "given") == 0) return read_hash(s, camera->given);
+    if (strcmp(key, "others") == 0) return read_hash(s, camera->others);
+    s->at = at;
+    return read_member(s, &camera->entry);
+}
+
+/* Axes are not zero, so what is not there is noticed. */
+static bool is_whole(const struct layer_camera *camera) {
+    const struct view *view = &camera->view;
+    return vec3_max_abs(view->forward) > 0.0 && vec3_max_abs(view->right) > 0.0 &&
+           vec3_max_abs(view->up) > 0.0 && *camera->given && *camera->others;
+}
+
+bool layer_camera_read(const char *text, struct arena *arena, struct layer_camera *camera) {
+    struct scan s = {.at = text, .arena = arena};
+    struct layer_camera found = {.entry = {.id = 0}};
+    *camera = found;
+    if (!take(&s, "") || !take(&s, "{")) return false;
+    do
+        if (!read_camera_member(&s, &found)) return false;
+    while (take(&s, ","));
+    if (!take(&s, "}") || *s.at || !is_whole(&found)) return false;
+    *camera = found;
+    camera->entry.kind = "camera";
+    return true;
 }

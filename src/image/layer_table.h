@@ -1,11 +1,19 @@
-/* The entries of a layer as JSON, and back:
+/* The entries of a layer as JSON, and its camera, and back:
  *
  *     [
  *       {"id": 3, "name": "lid", "kind": "sphere", "file": "scene.yaml", "line": 41, "column": 5},
  *       ...
  *     ]
  *
- * What there is not is null, or 0 of line and column. */
+ *
+ *     {
+ *       "projection": "perspective",
+ *       "eye": [0, 3, 8], "forward": [0, -0.29, -0.96], "right": [0.55, 0, 0], "up": [0, 0.4, -0.12],
+ *       "given": "b2c3...", "others": "08f1...",
+ *       "file": "scene.yaml", "line": 3, "column": 9
+ *     }
+ *
+ * What there is not is null, or 0 of line and column. Numbers of a camera are written so that they come back exactly. */
 #ifndef MONGE_IMAGE_LAYER_TABLE_H
 #define MONGE_IMAGE_LAYER_TABLE_H
 
@@ -17,5 +25,10 @@ char *layer_table_text(const struct layer_entries *entries);
 /* Reads what layer_table_text has written; members that it does not know are passed over. The list lives in the
  * arena. False where the text is anything else, or its ids do not rise from 1. */
 bool layer_table_read(const char *text, struct arena *arena, struct layer_entries *entries);
+
+/* The same for a camera that is known. False where the text is anything else, or not whole: then the camera is not
+ * known. */
+char *layer_camera_text(const struct layer_camera *camera);
+bool layer_camera_read(const char *text, struct arena *arena, struct layer_camera *camera);
 
 #endif

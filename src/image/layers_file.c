@@ -70,18 +70,22 @@ static bool write_normals(const struct monge_layers *layers, const char *path, c
 static bool write_numbers(const struct monge_layers *layers, enum monge_layer layer, const char *path,
                           char *message, size_t size) {
     const size_t pixels = layers_pixels(layers);
-    const bool has_table = layer != MONGE_LAYER_SHADOW;
+    const bool has_table = layer != MONGE_LAYER_SHADOW,
+               has_camera = layer == MONGE_LAYER_OBJECT && layers->camera.entry.kind;
     char key[] = "monge:table", *table = has_table ? layer_table_text(&layers->entries[layer]) : NULL;
+    char camera_key[] = "monge:camera", *camera = has_camera ? layer_camera_text(&layers->camera) : NULL;
     struct samples samples = {.channels = bits_of(layers, layer) > 16 ? 3 : 1};
     samples.values = malloc(pixels * samples.channels * sizeof *samples.values);
-    bool good = samples.values && (table || !has_table);
+    bool good = samples.values && (table || !has_table) && (camera || !has_camera);
     if (!good) snprintf(message, size, "cannot write %s: out of memory", path);
     for (size_t i = 0; good && i < pixels; i++)
         for (unsigned c = 0; c < samples.channels; c++)
             samples.values[samples.channels * i + c] = (uint16_t)(number_at(layers, layer, i) >> (16 * c));
     if (has_table) samples.texts[samples.text_count++] = (struct samples_text){key, table};
+    if (has_camera) samples.texts[samples.text_count++] = (struct samples_text){camera_key, camera};
     good = good && write_samples(layers, path, &samples, message, size);
     free(samples.values);
+    free(camera);
     free(table);
     return good;
 }
@@ -147,6 +151,14 @@ static bool read_table(struct monge_layers *layers, enum monge_layer layer, cons
     return good;
 }
 
+/* One that cannot be read is not known, as in files of older programs. */
+static void read_camera(struct monge_layers *layers, const char *text) {
+    jmp_buf full;
+    layers->arena.on_full = &full;
+    if (setjmp(full) == 0) layer_camera_read(text, &layers->arena, &layers->camera);
+    layers->arena.on_full = NULL;
+}
+
 static unsigned sample_at(const struct monge_picture *picture, uint32_t y, size_t i) {
     const uint8_t *at = picture_row(picture, y) + 2 * i;
     return (unsigned)at[0] << 8 | at[1];
@@ -198,6 +210,8 @@ static bool take_picture(struct reading *reading, enum monge_layer layer, const 
         layers->light_count = 16 * picture->channels;
         return true;
     }
+    const char *camera = layer == MONGE_LAYER_OBJECT ? text_of(picture, "monge:camera") : NULL;
+    if (camera) read_camera(layers, camera);
     return (table && read_table(layers, layer, table)) ||
            fail(reading, path, "it has no table of what its numbers stand for");
 }

@@ -246,6 +246,15 @@ static void list_objects(const struct surveying *sv, struct arena *scratch) {
     list_entries(sv->layers, MONGE_LAYER_OBJECT, sv->tracer.scene, index_of, scratch);
 }
 
+static struct monge_entry camera_entry(const struct scene *scene, struct arena *arena) {
+    const struct span *place = &scene->camera_place;
+    if (!place->source) return (struct monge_entry){.kind = "camera"};
+    return (struct monge_entry){.kind = "camera",
+                                .file = keep(arena, place->source->name),
+                                .line = place->line + 1,
+                                .column = place->column + 1};
+}
+
 /* ---- All of it ---- */
 
 static bool survey(struct surveying *sv, const struct monge_job *job, struct diagnostics *diag,
@@ -253,6 +262,8 @@ static bool survey(struct surveying *sv, const struct monge_job *job, struct dia
     struct monge_layers *layers = sv->layers;
     const struct scene *scene = sv->tracer.scene;
     sv->view = camera_view(scene, sv->tracer.accel, layers->width, layers->height);
+    layers->camera.view = sv->view;
+    layers->camera.entry = camera_entry(scene, &layers->arena);
     lights_set(&sv->tracer, scratch, &sv->view);
     layers->light_count = sv->tracer.light_count;
     sv->object_ids = object_ids(scene, scratch, &layers->entries[MONGE_LAYER_OBJECT].highest);

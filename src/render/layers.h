@@ -8,12 +8,21 @@
 
 #include "accel/accel.h"
 #include "monge.h"
+#include "render/camera.h"
 #include "scene/scene.h"
 
 struct layer_entries {
     struct monge_entry *list; /* by id, those in the picture alone; in the layers' arena, as their texts */
     uint32_t count;
     uint32_t highest; /* id that any pixel of the whole picture could have */
+};
+
+/* Where a picture is seen from, with hashes in text of what made it. */
+struct layer_camera {
+    struct monge_entry entry;    /* kind NULL: not known; file NULL: the scene gives none */
+    struct view view;            /* its distance is not kept in files */
+    char given[HASH_TEXT_SIZE];  /* what the scene says of the camera */
+    char others[HASH_TEXT_SIZE]; /* the rest of the scene, and the settings */
 };
 
 struct monge_layers {
@@ -27,6 +36,7 @@ struct monge_layers {
     uint64_t *lights;
     uint32_t light_count;       /* point lights of the picture */
     char scene[HASH_TEXT_SIZE]; /* the fingerprint of its picture, in text; "": not known */
+    struct layer_camera camera;
     struct arena arena;
 };
 

@@ -18,7 +18,7 @@ static void hash_form(struct hash *hash, const struct quadric_form *form) {
     hash_integer(hash, form->open);
 }
 
-static void hash_camera(struct hash *hash, const struct camera *camera) {
+void camera_hash(const struct camera *camera, struct hash *hash) {
     const bool given[] = {camera->has_eye, camera->has_look_at, camera->has_direction, camera->has_up,
                           camera->has_height};
     for (size_t i = 0; i < sizeof given / sizeof *given; i++) hash_integer(hash, given[i]);
@@ -109,7 +109,7 @@ void scene_hash(const struct scene *scene, struct hash *hash) {
     hash_integer(hash, scene->highlight_always);
     hash_vec3(hash, scene->background.bottom);
     hash_vec3(hash, scene->background.top);
-    hash_camera(hash, &scene->camera);
+    camera_hash(&scene->camera, hash);
     hash_integer(hash, scene->default_lights);
     hash_integer(hash, scene->light_count);
     for (uint32_t i = 0; i < scene->light_count; i++) {

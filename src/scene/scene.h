@@ -64,6 +64,7 @@ struct scene {
     uint32_t geometry_count;
     struct origins origins;              /* of primitives, and the files of all places below */
     struct material_info *material_info; /* of each material */
+    struct span camera_place;            /* of all of the camera; source NULL: the file has none */
     struct span camera_span;  /* of what says where it looks; else of the camera, or of the scene */
     struct span eye_span;     /* of the camera's eye where it has one */
     struct span *light_spans; /* of each light's place or colour */
@@ -89,6 +90,9 @@ bool scene_same_shapes(const struct scene *a, const struct scene *b);
 
 /* Adds the shapes of a set to the hash, and their materials by number. */
 void primitives_hash(const struct primitives *p, const struct primitives *geometries, struct hash *hash);
+
+/* Adds what the file says of the camera to the hash. */
+void camera_hash(const struct camera *camera, struct hash *hash);
 
 /* Adds what a material is to the hash. */
 void material_hash(const struct material *material, struct hash *hash);

@@ -109,6 +109,7 @@ void camera_build(struct builder *b, const struct object_value *file) {
     *camera =
         (struct camera){.up = {0, 1, 0}, .fov_deg = grammar_kinds[KIND_CAMERA].keys[KEY_CAMERA_FOV].value[0]};
     b->scene->camera_span = object_span(file, object ? KEY_FILE_CAMERA : KEY_FILE_SCENE);
+    b->scene->camera_place = object ? b->scene->camera_span : (struct span){.source = NULL};
     if (!object) return;
     *camera = (struct camera){
         .projection = object_choice(object, KEY_CAMERA_PROJECTION) == CHOICE_CAMERA_PROJECTION_ORTHOGRAPHIC

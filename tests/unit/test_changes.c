@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include "folder.h"
+#include "image/camera_change.h"
 #include "image/changes.h"
 #include "image/encode.h"
 #include "near.h"
@@ -67,6 +68,9 @@ struct row {
 #define TOWER                                                                                                \
     "define: {tower: {objects: [{cylinder: {from: [0, 0, 0], to: [0, 2, 0], radius: 0.4}}, {sphere: "        \
     "{center: [0, 2, 0], radius: 0.6}}]}}\n"
+#define CAMERA(rest)                                                                                         \
+    "camera: {eye: [0, 3, 8], " rest "}\nlights: [{point: {at: [-4, 8, 6]}}]\n" SCENE FLOOR BALL
+#define OTHERS "other changes too, which cannot be told by object under another camera\n"
 /* So many that it becomes a geometry of its own. */
 #define STACK "define: {stack: {objects: [{for: {i: 20}, sphere: {center: [0, 0.1 * i, 0], radius: 0.5}}]}}\n"
 
@@ -184,6 +188,50 @@ static struct row rows[] = {
      "object \"tile\" (scene.yaml:4): geometry moved\n"
      "object \"ball\" (scene.yaml:5): geometry moved\n",
      0},
+    {"the camera has moved, seen by its place", "# a line\n" HEAD SCENE FLOOR BALL BOX,
+     "lights: [{point: {at: [-4, 8, 6]}}, {ambient: {color: [0.2, 0.2, 0.2]}}]\n"
+     "camera:\n  eye: [0.5, 3, 8]\n  look_at: [0, 0.7, 0]\n" SCENE FLOOR BALL BOX,
+     "camera (scene.yaml:3): moved\n", 0},
+    {"the camera has turned", CAMERA("look_at: [0, 0.7, 0]"), CAMERA("look_at: [0.2, 0.7, 0]"),
+     "camera (scene.yaml:1): view changed\n", 0},
+    {"the camera is tilted", CAMERA("look_at: [0, 0.7, 0]"), CAMERA("look_at: [0, 0.7, 0], up: [0.1, 1, 0]"),
+     "camera (scene.yaml:1): view changed\n", 0},
+    {"the camera has another angle", CAMERA("look_at: [0, 0.7, 0]"),
+     CAMERA("look_at: [0, 0.7, 0], fov: 41.5"), "camera (scene.yaml:1): view changed\n", 0},
+    {"the camera has another projection, of the same height at the eye",
+     CAMERA("direction: [0, 0, -1], fov: 90"),
+     CAMERA("direction: [0, 0, -1], projection: orthographic, height: 2"),
+     "camera (scene.yaml:1): view changed\n", 0},
+    {"the camera has the same rays by other words", CAMERA("look_at: [0, 0, 0]"),
+     CAMERA("direction: [0, -30, -80], up: [0, 2, 0]"), "", 0},
+    {"the camera and the ball have moved", HEAD SCENE FLOOR BALL BOX,
+     "camera: {eye: [0, 3, 9], look_at: [0, 0.7, 0]}\n"
+     "lights: [{point: {at: [-4, 8, 6]}}, {ambient: {color: [0.2, 0.2, 0.2]}}]\n" SCENE FLOOR
+     "  - {name: ball, sphere: {center: [-1.5, 1, 0.6]}, material: {ambient: red, diffuse: red}}\n" BOX,
+     "camera (scene.yaml:1): moved\n" OTHERS, 0},
+    {"the camera has moved, and one has gone", HEAD SCENE FLOOR BALL BOX,
+     "camera: {eye: [0, 3, 9], look_at: [0, 0.7, 0]}\n"
+     "lights: [{point: {at: [-4, 8, 6]}}, {ambient: {color: [0.2, 0.2, 0.2]}}]\n" SCENE FLOOR BALL,
+     "camera (scene.yaml:1): moved\n" OTHERS, 0},
+    {"the camera has moved, and the light", HEAD SCENE FLOOR BALL,
+     "camera: {eye: [0, 3, 9], look_at: [0, 0.7, 0]}\n"
+     "lights: [{point: {at: [4, 8, 6]}}, {ambient: {color: [0.2, 0.2, 0.2]}}]\n" SCENE FLOOR BALL,
+     "camera (scene.yaml:1): moved\n" OTHERS, 0},
+    {"no camera, and what is framed has moved", SCENE FLOOR BALL BOX,
+     SCENE FLOOR
+     "  - {name: ball, sphere: {center: [-1.8, 1, 0]}, material: {ambient: red, diffuse: red}}\n" BOX,
+     "camera: framing by the scene's bounds changed\n" OTHERS, 0},
+    {"a camera that looks at the middle", "camera: {eye: [0, 3, 8]}\n" SCENE BALL BOX,
+     "camera: {eye: [0, 3, 8]}\n" SCENE
+     "  - {name: ball, sphere: {center: [-1.8, 1, 0]}, material: {ambient: red, diffuse: red}}\n" BOX,
+     "camera (scene.yaml:1): framing by the scene's bounds changed\n" OTHERS, 0},
+    {"no camera, and what has moved is within the bounds",
+     SCENE FLOOR BALL BOX "  - {sphere: {radius: 0.2}}\n",
+     SCENE FLOOR BALL BOX "  - {sphere: {center: [0.1, 0, 0], radius: 0.2}}\n",
+     "sphere (scene.yaml:5): geometry moved\n", 0},
+    {"a camera has come", SCENE BALL, "camera: {eye: [0, 3, 8]}\n" SCENE BALL,
+     "camera (scene.yaml:1): moved\n", 0},
+    {"a camera has gone", "camera: {eye: [0, 3, 8]}\n" SCENE BALL, SCENE BALL, "camera: moved\n", 0},
     {"without depth and normals", HEAD SCENE FLOOR BALL, HEAD SCENE FLOOR BALL BOX,
      "box (scene.yaml:6): appeared\n"
      "object \"floor\" (scene.yaml:4): shadow changed\n",
@@ -214,6 +262,80 @@ static void test_row(void **state) {
     find_differences(&a, &b, differs);
     tell(a.layers, b.layers, differs, got, sizeof got);
     assert_string_equal(got, row->want);
+    forget(&a);
+    forget(&b);
+}
+
+/* ---- The camera ---- */
+
+/* What an older program has written does not tell its camera. */
+static void test_unknown_camera(void **state) {
+    (void)state;
+    struct rendered a = render(CAMERA("look_at: [0, 0.7, 0]"), MONGE_LAYERS_ALL),
+                    b = render(CAMERA("look_at: [0, 0.8, 0]"), MONGE_LAYERS_ALL);
+    static uint8_t differs[PIXELS];
+    char got[2000];
+    find_differences(&a, &b, differs);
+    for (int side = 0; side < 2; side++) {
+        struct layer_camera *camera = &(side ? &b : &a)->layers->camera, kept = *camera;
+        *camera = (struct layer_camera){.entry = {.kind = NULL}};
+        tell(a.layers, b.layers, differs, got, sizeof got);
+        assert_string_equal(got, "object \"floor\" (scene.yaml:4): geometry moved\n"
+                                 "background: colour changed\n"
+                                 "object \"ball\" (scene.yaml:5): geometry moved\n");
+        *camera = kept;
+    }
+    forget(&a);
+    forget(&b);
+}
+
+/* What moves by another program's rounding has not moved. */
+static void test_camera_tolerance(void **state) {
+    (void)state;
+    static const struct {
+        double by;
+        bool moved;
+    } cases[] = {{0, false}, {1e-11, false}, {1e-6, true}, {-1e-6, true}};
+    struct rendered r = render(HEAD SCENE BALL, MONGE_LAYERS_ALL);
+    const struct layer_camera *camera = &r.layers->camera;
+    for (size_t k = 0; k < COUNT(cases); k++) {
+        struct layer_camera other = *camera;
+        enum monge_change_kind kind = MONGE_CHANGES;
+        strcpy(other.given, "other");
+        other.view.eye.x += cases[k].by;
+        assert_int_equal(camera_change(camera, &other, &kind), cases[k].moved);
+        if (cases[k].moved) assert_int_equal(kind, MONGE_CHANGE_CAMERA);
+        other.view.eye.x = camera->view.eye.x;
+        other.view.up.y += cases[k].by;
+        assert_int_equal(camera_change(camera, &other, &kind), cases[k].moved);
+        if (cases[k].moved) assert_int_equal(kind, MONGE_CHANGE_VIEW);
+    }
+    forget(&r);
+}
+
+/* Of the camera all pixels that differ; of what else there is nobody knows. */
+static void test_camera_pixels(void **state) {
+    (void)state;
+    static const char head[] = "camera: {projection: orthographic, eye: [0, 0, 5], look_at: [0, 0, 0], "
+                               "height: 7.2}\nscene: [{square: {center: [-3, 0, 0], size: 2}}]\n",
+                      moved[] = "camera: {projection: orthographic, eye: [1, 0, 5], look_at: [1, 0, 0], "
+                                "height: 7.2}\nscene: [{square: {center: [-3, 1, 0], size: 2}}]\n";
+    struct rendered a = render(head, MONGE_LAYERS_ALL), b = render(moved, MONGE_LAYERS_ALL);
+    static uint8_t differs[PIXELS];
+    struct monge_change changes[2] = {{.kind = MONGE_CHANGES}, {.kind = MONGE_CHANGES}};
+    size_t count = 0;
+    differs[30 * 96 + 20] = differs[33 * 96 + 10] = 1;
+    assert_true(changes_find(a.layers, b.layers, differs, changes, 1, &count));
+    assert_int_equal(count, 2);
+    assert_int_equal(changes[1].kind, MONGE_CHANGES); /* no room */
+    assert_true(changes_find(a.layers, b.layers, differs, changes, 2, &count));
+    const struct monge_region r = changes[0].bounds;
+    assert_true(r.x == 10 && r.y == 30 && r.width == 11 && r.height == 4);
+    assert_int_equal(changes[0].pixels, 2);
+    assert_int_equal(changes[0].kind, MONGE_CHANGE_CAMERA);
+    assert_int_equal(changes[1].kind, MONGE_CHANGE_OTHERS);
+    assert_null(changes[1].object);
+    assert_int_equal(changes[1].pixels, 0);
     forget(&a);
     forget(&b);
 }
@@ -361,6 +483,10 @@ static void test_terminal(void **state) {
     assert_int_equal(monge_change_text(&change, cut, sizeof cut), strlen(text));
     assert_string_equal(cut, "objec");
     assert_int_equal(monge_change_text(&change, NULL, 0), strlen(text));
+    const struct monge_entry nowhere = {0, NULL, "s\033[31m", NULL, 0, 0};
+    const struct monge_change other = {.kind = MONGE_CHANGE_SHADOW, .object = &nowhere};
+    monge_change_text(&other, text, sizeof text);
+    assert_string_equal(text, "s [31m: shadow changed");
 }
 
 /* ---- Why ---- */
@@ -393,11 +519,14 @@ static void test_causes(void **state) {
 }
 
 int main(void) {
-    struct CMUnitTest tests[COUNT(rows) + 8];
+    struct CMUnitTest tests[COUNT(rows) + 16];
     size_t count = 0;
     for (size_t i = 0; i < COUNT(rows); i++)
         tests[count++] = (struct CMUnitTest){rows[i].name, test_row, NULL, NULL, &rows[i]};
     const struct CMUnitTest others[] = {
+        cmocka_unit_test(test_unknown_camera),
+        cmocka_unit_test(test_camera_tolerance),
+        cmocka_unit_test(test_camera_pixels),
         cmocka_unit_test(test_bounds),
         cmocka_unit_test(test_refused),
         cmocka_unit_test(test_tolerance),

@@ -389,6 +389,17 @@ static void assert_same_entries(const struct monge_layers *a, const struct monge
     }
 }
 
+static void assert_same_camera(const struct layer_camera *a, const struct layer_camera *b) {
+    assert_int_equal(a->view.orthographic, b->view.orthographic);
+    assert_memory_equal(&a->view.eye, &b->view.eye, 4 * sizeof a->view.eye); /* forward, right and up too */
+    assert_string_equal(a->given, b->given);
+    assert_string_equal(a->others, b->others);
+    assert_string_equal(a->entry.kind, b->entry.kind);
+    assert_string_equal(a->entry.file ? a->entry.file : "none", b->entry.file ? b->entry.file : "none");
+    assert_int_equal(a->entry.line, b->entry.line);
+    assert_int_equal(a->entry.column, b->entry.column);
+}
+
 static void test_files(void **state) {
     (void)state;
     bool failed;
@@ -406,6 +417,7 @@ static void test_files(void **state) {
     for (size_t i = 0; i < layers_pixels(layers); i++) assert_same_pixel(layers, i, again, i);
     assert_same_entries(layers, again, MONGE_LAYER_OBJECT);
     assert_same_entries(layers, again, MONGE_LAYER_MATERIAL);
+    assert_same_camera(&layers->camera, &again->camera);
     monge_layers_free(again);
 
     unlink("king.normal.png");
@@ -438,6 +450,7 @@ static void test_large_numbers(void **state) {
     assert_int_equal(again->ids[0][1], 0x12345678);
     assert_true(again->lights[0] == layers->lights[0]);
     assert_same_entries(layers, again, MONGE_LAYER_OBJECT);
+    assert_null(again->camera.entry.kind); /* as of an older program */
     monge_layers_free(again);
     monge_layers_free(layers);
 }
@@ -549,8 +562,84 @@ static void test_tables(void **state) {
     }
 }
 
+/* ---- Cameras ---- */
+
+/* In closed form: half the height of the picture at the distance of `forward`, and half its width. */
+static void test_camera(void **state) {
+    (void)state;
+    static const struct {
+        const char *head;
+        bool orthographic;
+        double half;
+        unsigned line, column;
+    } cases[] = {{PERSPECTIVE, false, 0.17632698070846498, 1, 9},
+                 {"# a line\ncamera:\n  eye: [0, 0, 10]\n  look_at: [0, 0, 0]\n  fov: 20\n", false,
+                  0.17632698070846498, 3, 3},
+                 {ORTHOGRAPHIC, true, 2.5, 1, 9}};
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        char text[300];
+        snprintf(text, sizeof text, "%sscene: [{sphere: {}}]\n", cases[i].head);
+        struct monge_layers *layers = render_good(text, 20, 10);
+        const struct layer_camera *camera = &layers->camera;
+        assert_int_equal(camera->view.orthographic, cases[i].orthographic);
+        assert_vec3_near(camera->view.eye, (vec3){0, 0, 10}, 1e-15, "eye");
+        assert_vec3_near(camera->view.forward, (vec3){0, 0, -1}, 1e-15, "forward");
+        assert_vec3_near(camera->view.right, (vec3){2 * cases[i].half, 0, 0}, 1e-12, "right");
+        assert_vec3_near(camera->view.up, (vec3){0, cases[i].half, 0}, 1e-12, "up");
+        assert_string_equal(camera->entry.kind, "camera");
+        assert_string_equal(camera->entry.file, "scene.yaml");
+        assert_int_equal(camera->entry.line, cases[i].line);
+        assert_int_equal(camera->entry.column, cases[i].column);
+        monge_layers_free(layers);
+    }
+    struct monge_layers *framed = render_good("scene: [{sphere: {}}]\n", 20, 10);
+    assert_string_equal(framed->camera.entry.kind, "camera");
+    assert_null(framed->camera.entry.file);
+    monge_layers_free(framed);
+}
+
+#define HASH   "0123456789abcdef0123456789abcdef"
+#define AXES   "\"forward\": [0, 0, -1], \"right\": [1, 0, 0], \"up\": [0, 1, 0], "
+#define HASHES "\"given\": \"" HASH "\", \"others\": \"" HASH "\""
+#define KIND   "\"projection\": \"perspective\", "
+
+static void test_camera_texts(void **state) {
+    (void)state;
+    static const struct {
+        const char *text;
+        bool good;
+    } texts[] = {
+        {"{" KIND "\"eye\": [1, -2.5e-3, 3], " AXES HASHES "}", true},
+        {" { " AXES HASHES ", \"new\": 3, \"newer\": \"x\", \"line\": 7, \"file\": null } \n", true},
+        {"", false},
+        {"{}", false},
+        {"{" AXES HASHES, false},
+        {"{" AXES HASHES "} x", false},
+        {"{" AXES HASHES ",}", false},
+        {"{" AXES "\"given\": \"" HASH "\"}", false},
+        {"{" AXES "\"given\": \"" HASH "\", \"others\": \"01\"}", false},
+        {"{" AXES "\"given\": \"" HASH "\", \"others\": null}", false},
+        {"{\"forward\": [0, 0, -1], \"up\": [0, 1, 0], " HASHES "}", false},
+        {"{\"eye\": [0, 0], " AXES HASHES "}", false},
+        {"{\"eye\": [0, 0, inf], " AXES HASHES "}", false},
+        {"{\"eye\": [0, 0, x], " AXES HASHES "}", false},
+        {"{\"projection\": \"fisheye\", " AXES HASHES "}", false},
+    };
+    for (size_t i = 0; i < COUNT(texts); i++) {
+        struct arena arena = {0};
+        struct layer_camera camera;
+        const bool good = layer_camera_read(texts[i].text, &arena, &camera);
+        if (good != texts[i].good) fail_msg("%s: read: %d", texts[i].text, good);
+        assert_int_equal(camera.entry.kind != NULL, good);
+        if (good) assert_vec3_near(camera.view.forward, (vec3){0, 0, -1}, 0, "forward");
+        if (i == 0) assert_vec3_near(camera.view.eye, (vec3){1, -2.5e-3, 3}, 0, "eye");
+        if (i == 1) assert_int_equal(camera.entry.line, 7);
+        arena_free(&arena);
+    }
+}
+
 int main(void) {
-    struct CMUnitTest tests[COUNT(object_rows) + 16];
+    struct CMUnitTest tests[COUNT(object_rows) + 20];
     size_t count = 0;
     for (size_t i = 0; i < COUNT(object_rows); i++)
         tests[count++] = (struct CMUnitTest){object_rows[i].name, test_objects, NULL, NULL, &object_rows[i]};
@@ -565,6 +654,8 @@ int main(void) {
         cmocka_unit_test(test_regions),
         cmocka_unit_test(test_long_loop),
         cmocka_unit_test(test_tables),
+        cmocka_unit_test(test_camera),
+        cmocka_unit_test(test_camera_texts),
         cmocka_unit_test_setup_teardown(test_files, enter_folder, leave_folder),
         cmocka_unit_test_setup_teardown(test_large_numbers, enter_folder, leave_folder),
         cmocka_unit_test_setup_teardown(test_broken_files, enter_folder, leave_folder),
