@@ -8,6 +8,12 @@ export NO_COLOR=1
 
 # says STATUS NAME: the line of a golden.
 says() { ok "$2 is $1" grep -qE "^$1 +$2(  |$)" out; }
+# flip FILE N: another last bit of the byte at N, of N + 1 bytes from the beginning.
+flip() {
+    byte=$(od -An -tu1 -j "$2" -N 1 "$1")
+    # shellcheck disable=SC2059
+    printf "\\$(printf %03o $((byte ^ 1)))" | dd of="$1" bs=1 seek="$2" conv=notrunc 2>dd-err
+}
 sums() { find "$1" -type f -exec cksum {} + | sort; }
 
 # scene FILE COLOUR [X]: small, of three objects with names.
@@ -800,6 +806,11 @@ for kind in png both; do
         exits 1 test s --golden g --changed; says missing one
         exits 0 accept --golden g -q; exits 0 test s --golden g
     done
+    # a PFM has no sums: the hash that the objects have tells
+    flip g/one.depth.pfm 1000; exits 1 test s --golden g; says missing one; out_has '2 same, 1 missing'
+    out_has 'cannot read g/one.depth.pfm: it is damaged, or not of the rendering that the layer object is of'
+    flip g/one.depth.pfm 1000; exits 0 test s --golden g; flip g/one.depth.pfm 1000
+    exits 1 test s --golden g -q; exits 0 accept --golden g -q; exits 0 test s --golden g
     [ $kind != png ] || { rm g/one.png; exits 1 test s --golden g; says missing one; out_has 'g/one.png is not there, but its passes are'; }
     exits 0 test s --golden g --update-only-failed -q
     # without aov nothing is said of them but that they are there
