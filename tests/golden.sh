@@ -820,6 +820,48 @@ for kind in png both; do
     exits 0 test s --golden g -q; out_lacks passes
     [ $kind != png ] || { rm g/one.png; exits 1 test s --golden g; says missing one; }
 done
+# what is taken leaves files alone that are the same already: by their bytes, or by all that a pass has to say
+stamps() { stat -c '%n %i %y' "$@"; }
+for kind in png both; do
+    fresh "kind: $kind" 'rules: [{scenes: one, aov: true}]'; exits 0 test s --golden g --update-only-failed -q
+    passes='g/one.object.png g/one.material.png g/one.normal.png g/one.shadow.png'
+    # shellcheck disable=SC2086
+    stamps $passes g/one.png g/golden.yaml g/two.png $([ $kind = png ] || echo g/golden.lock) >before
+    rm g/one.depth.pfm; exits 1 test s --golden g -q; exits 0 accept --golden g; out_has 'took one'; there g/one.depth.pfm
+    # shellcheck disable=SC2086
+    stamps $passes g/one.png g/golden.yaml g/two.png $([ $kind = png ] || echo g/golden.lock) >after
+    ok 'of a golden without its depth only that is written' cmp -s before after
+    stamps g/one.depth.pfm >before; stamps g/one.object.png >object; scene s/one.yaml blue; exits 1 test s --golden g -q
+    exits 0 accept --golden g; stamps g/one.depth.pfm >after; ok 'depth that is equal is not written' cmp -s before after
+    stamps g/one.object.png >after; ok 'passes of another rendering are written' sh -c '! cmp -s object after'
+    exits 0 test s --golden g; out_lacks passes
+done
+if command -v python3 >where; then
+    # rewrite FILE FROM TO: a text in a chunk of a PNG, with its sum, and the pixels not compressed.
+    cat >rewrite.py <<'PY'
+import struct, sys, zlib
+path, old, new = sys.argv[1], sys.argv[2].encode(), sys.argv[3].encode()
+data, out, pixels, at, found = open(path, 'rb').read(), b'', b'', 8, 0
+def chunk(kind, body): return struct.pack('>I', len(body)) + kind + body + struct.pack('>I', zlib.crc32(kind + body))
+while at < len(data):
+    size, kind = struct.unpack('>I4s', data[at:at + 8])
+    body, at = data[at + 8:at + 8 + size], at + 12 + size
+    if kind == b'IDAT': pixels += body
+    elif kind == b'IEND': out += chunk(b'IDAT', zlib.compress(zlib.decompress(pixels), 0)) + chunk(kind, body)
+    else: found += body.count(old); out += chunk(kind, body.replace(old, new))
+assert found == 1
+open(path, 'wb').write(data[:8] + out)
+PY
+    fresh 'rules: [{scenes: one, aov: true}]'; exits 0 test s --golden g --update-only-failed -q
+    cp g/one.object.png x; python3 rewrite.py g/one.object.png 'Software' 'Swftoare'; cp g/one.material.png y
+    python3 rewrite.py g/one.material.png 'monge:table' 'monge:tabel'
+    ok 'other bytes' sh -c '! cmp -s g/one.object.png x && ! cmp -s g/one.material.png y'
+    stamps g/one.object.png >before; rm g/one.depth.pfm; exits 1 test s --golden g -q; exits 0 accept --golden g; out_has 'took one'
+    stamps g/one.object.png >after; ok 'a pass with the same pixels and texts is not written' cmp -s before after
+    ok 'one without its table is' cmp -s g/one.material.png y
+    exits 0 accept --golden g; out_has 'one is taken already'
+    exits 0 test s --golden g -q
+fi
 # what a link in the folder leads to stays as it is
 fresh; mkdir -p away; echo mine >away/victim; cp away/victim away/kept
 ln -s ../away/victim g/one.png; ln -s ../away g/in; exits 1 test s --golden g -q
