@@ -820,6 +820,32 @@ for kind in png both; do
     exits 0 test s --golden g -q; out_lacks passes
     [ $kind != png ] || { rm g/one.png; exits 1 test s --golden g; says missing one; }
 done
+# a dry run tells what another one would do then, and writes nothing: the exit codes are the same, and so is what is told of each
+# foresees STATUS [OPTION...]: of monge accept.
+foresees() {
+    wanted=$1; shift
+    find g monge-test -exec stat -c '%n %i %y' {} + | sort >before
+    exits "$wanted" accept --golden g --dry-run "$@"; cp out dry; cp err dry-err
+    find g monge-test -exec stat -c '%n %i %y' {} + | sort >after; ok 'nothing is written' cmp -s before after
+    exits "$wanted" accept --golden g "$@"
+    sed 's/^would take /took /; s/^would remove /removed /; s/ would be taken/ taken/' dry >x
+    ok 'what is told of each is what becomes of it' cmp -s x out; ok 'so is what is wrong' cmp -s dry-err err
+}
+for kind in png hash both; do
+    fresh 'root: ../s' "kind: $kind" 'rules: [{scenes: one, aov: true}]'; exits 1 test --golden g -q
+    exits 0 accept --golden g -n; out_has 'would take one'; out_has '3 would be taken'; out_lacks took; no_err; missing g/golden.lock
+    foresees 0; out_has '3 taken'; foresees 0; out_has '0 taken, 3 done already'
+    scene s/one.yaml lime; scene s/two.yaml red; scene s/new.yaml red; rm 's/in/a b%.yaml'; exits 1 test --golden g -q
+    scene s/two.yaml teal
+    exits 1 accept 'in/*' two --golden g --prune -nq; no_out; err_has 'two is left as it is: the scene has changed since the run'
+    foresees 1 --prune; ok 'the lines of a dry run' [ "$(cat dry)" = 'would remove in/a b%
+would take new
+would take one
+2 would be taken, 1 removed, 1 left as they are' ]
+done
+fresh; exits 1 test s --golden g -q; mkdir elsewhere; ln -s ../elsewhere g/in
+foresees 2; err_has 'g/in is a link: goldens are files in their folder'; rm -r elsewhere
+exits 2 accept -n; err_has '--golden DIR is missing'
 # what is taken leaves files alone that are the same already: by their bytes, or by all that a pass has to say
 stamps() { stat -c '%n %i %y' "$@"; }
 for kind in png both; do

@@ -126,6 +126,18 @@ static void pass_by(struct acceptance *a, const struct golden_case *c, const cha
     if (!a->args->option[OPTION_QUIET].given) say_line(stdout, "%s is %s already", c->name, what);
 }
 
+static bool is_dry(const struct acceptance *a) { return a->args->option[OPTION_DRY_RUN].given; }
+
+/* What has become of the golden, or of a dry run would. */
+static void tell_case(const struct acceptance *a, const struct golden_case *c, const char *done,
+                      const char *foreseen) {
+    if (!a->args->option[OPTION_QUIET].given) say_line(stdout, "%s %s", is_dry(a) ? foreseen : done, c->name);
+}
+
+static bool take(struct acceptance *a, const struct golden_case *c) {
+    return is_dry(a) ? golden_check_places(a->folder, c) : golden_take(a->folder, &a->lock, c);
+}
+
 static void take_case(struct acceptance *a, struct golden_case *c) {
     struct monge_diagnostics *diag = monge_diagnostics_new();
     const char *why = diag ? find_obstacle(a, c, diag) : "out of memory";
@@ -136,11 +148,11 @@ static void take_case(struct acceptance *a, struct golden_case *c) {
         pass_by(a, c, "taken");
     else if (!golden_is_as_noted(a->folder, &a->lock, c))
         refuse(a, c, "its golden has changed since the run: `monge test` compares it anew");
-    else if (!golden_take(a->folder, &a->lock, c))
+    else if (!take(a, c))
         a->trouble = true;
     else {
         a->taken++;
-        if (!a->args->option[OPTION_QUIET].given) say_line(stdout, "took %s", c->name);
+        tell_case(a, c, "took", "would take");
     }
 }
 
@@ -181,11 +193,11 @@ static void remove_orphan(struct acceptance *a, struct golden_case *c) {
         pass_by(a, c, "removed");
     else if (scene_is_back(a, c->name))
         refuse(a, c, "its scene is there again");
-    else if (!golden_forget(a->folder, &a->lock, c))
+    else if (!is_dry(a) && !golden_forget(a->folder, &a->lock, c))
         a->trouble = true;
     else {
         a->removed++;
-        if (!a->args->option[OPTION_QUIET].given) say_line(stdout, "removed %s", c->name);
+        tell_case(a, c, "removed", "would remove");
     }
 }
 
@@ -224,10 +236,10 @@ static enum status settle(struct acceptance *a) {
     interrupt_defer();
     for (size_t i = 0; i < a->results.count && !interrupt_pending(); i++)
         settle_case(a, &a->results.cases[i]);
-    if (a->taken + a->removed > 0 && !golden_lock_write(&a->lock)) a->trouble = true;
+    if (!is_dry(a) && a->taken + a->removed > 0 && !golden_lock_write(&a->lock)) a->trouble = true;
     interrupt_settle();
     if (!a->args->option[OPTION_QUIET].given) {
-        printf("%zu taken", a->taken);
+        printf("%zu %staken", a->taken, is_dry(a) ? "would be " : "");
         if (a->removed > 0) printf(", %zu removed", a->removed);
         if (a->done > 0) printf(", %zu done already", a->done);
         if (a->refused > 0) printf(", %zu left as they are", a->refused);

@@ -105,14 +105,25 @@ bool golden_is_taken(const char *folder, const struct golden_lock *lock, const s
 
 /* ---- Taking ---- */
 
+bool golden_check_places(const char *folder, const struct golden_case *c) {
+    char *picture = path_below(folder, c->name, ".png");
+    bool good = c->kind == MONGE_GOLDEN_HASH || golden_check_inside(folder, picture);
+    for (enum monge_layer layer = 0; good && layer < MONGE_LAYERS && c->kind != MONGE_GOLDEN_HASH; layer++) {
+        char *path = aov_path(layer, picture);
+        good = golden_check_inside(folder, path);
+        free(path);
+    }
+    free(picture);
+    return good;
+}
+
 /* The layers of the picture come along; those of the old one go, unless they are the same. */
 static bool take_layers(const char *folder, const char *from, const char *to) {
     bool good = true;
     for (enum monge_layer layer = 0; good && layer < MONGE_LAYERS; layer++) {
         char *new = aov_path(layer, from), *old = aov_path(layer, to);
-        good = golden_check_inside(folder, old) &&
-               (same_layers(old, new) ||
-                (path_is_file(new) ? golden_copy(new, old) : golden_remove(folder, old)));
+        good =
+            same_layers(old, new) || (path_is_file(new) ? golden_copy(new, old) : golden_remove(folder, old));
         free(new);
         free(old);
     }
@@ -122,7 +133,7 @@ static bool take_layers(const char *folder, const char *from, const char *to) {
 /* The picture last: while it is the old one, the case still fails. */
 static bool take_picture(const char *folder, const struct golden_case *c) {
     char *to = path_below(folder, c->name, ".png");
-    const bool good = golden_check_inside(folder, to) && path_make_folders(to) &&
+    const bool good = golden_check_places(folder, c) && path_make_folders(to) &&
                       take_layers(folder, c->new_path, to) && golden_copy(c->new_path, to);
     free(to);
     return good;
