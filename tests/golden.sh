@@ -113,7 +113,7 @@ for kind in png hash both; do
     sums g >before
     exits 0 test s --golden g; says same one; says same 'in/a b%'; out_has '3 goldens: 3 same'
     ok 'no new pictures' [ -z "$(find monge-test -name '*.png')" ]
-    exits 0 test s --golden g -q; ok 'quiet: the summary alone' [ "$(wc -l <out)" -eq 1 ]
+    exits 0 test s --golden g -q; no_out; no_err
 
     scene s/one.yaml '"#ff0001"'
     exits 1 test s --golden g; says changed one; says same two
@@ -338,9 +338,9 @@ fresh 'kind: hash'
 exits 0 test s/one.yaml s/two.yaml --golden g --update-only-failed -q
 line=$(grep '^one ' g/golden.lock); line=${line#one}
 seq -f "a%04g$line" 3000 >>g/golden.lock; seq -f "s%04g$line" 3000 >>g/golden.lock
-exits 1 test s --golden g -q; out_has '6003 goldens: 2 same, 1 new, 6000 orphan'
+exits 1 test s --golden g; out_has '6003 goldens: 2 same, 1 new, 6000 orphan'
 exits 0 accept 'a*' 'in/*' --golden g --prune -q
-ok 'the new line is at its place' sh -c 'grep -v "^#" g/golden.lock | LC_ALL=C sort -c'; exits 1 test s --golden g -q; out_has '3003 goldens: 3 same, 3000 orphan'
+ok 'the new line is at its place' sh -c 'grep -v "^#" g/golden.lock | LC_ALL=C sort -c'; exits 1 test s --golden g; out_has '3003 goldens: 3 same, 3000 orphan'
 exits 0 accept --golden g --prune; out_has '0 taken, 3000 removed'; exits 0 test s --golden g -q
 ok 'the lines that are left' [ "$(grep -o '^[^# ]*' g/golden.lock | tr '\n' ,)" = in/a%20b%25,one,two, ]
 # What a frame makes may be called as another scene.
@@ -820,6 +820,13 @@ for kind in png both; do
     exits 0 test s --golden g -q; out_lacks passes
     [ $kind != png ] || { rm g/one.png; exits 1 test s --golden g; says missing one; }
 done
+# quietly only what is wrong is told, and a document that was asked for
+fresh; exits 0 test s --golden g --update-only-failed; out_has '3 of 3 new pictures are goldens now'
+scene s/one.yaml lime; exits 1 test s --golden g -q; cp out x; says changed one; ok 'no line of what is the same' sh -c '! grep -q ^same out'; out_lacks goldens; no_err
+exits 0 test s --golden g --update-only-failed -q; sed 's/^ *new: .*//' out >y; says changed one; out_lacks goldens
+ok 'what has failed is told in the same lines' [ "$(sed 's/^ *new: .*//' x)" = "$(cat y)" ]
+exits 0 test s --golden g -q; no_out; no_err; exits 0 test s --golden g --changed -q; no_out; no_err
+exits 0 test s --golden g -q --tap; out_has '# 3 goldens: 3 same'; exits 0 test s --golden g -q --json -; out_has '"same": 3'
 # a dry run tells what another one would do then, and writes nothing: the exit codes are the same, and so is what is told of each
 # foresees STATUS [OPTION...]: of monge accept.
 foresees() {
@@ -1002,7 +1009,7 @@ if have perl; then
     ok 'accept says what is not' [ "$(cat err)" = 'the run was interrupted: 3 scenes not judged' ]; there g/gone.png
     interrupted --tap; ok 'TAP bails out' [ "$(tail -n 1 out)" = 'Bail out! interrupted: 3 scenes not judged' ]
     interrupted --update-only-failed; ok 'no golden is touched' [ -z "$(find g -newer s/d.yaml -name '*.png')" ]
-    rm s/d.yaml; exits 1 test s --golden g -q; ok 'then all is judged' grep -q '4 changed, 1 orphan' out; ok 'a whole run' sh -c '! grep -q interrupted monge-test/results.json'
+    rm s/d.yaml; exits 1 test s --golden g; ok 'then all is judged' grep -q '4 changed, 1 orphan' out; ok 'a whole run' sh -c '! grep -q interrupted monge-test/results.json'
 fi
 
 told
