@@ -820,6 +820,10 @@ for kind in png both; do
     exits 0 test s --golden g -q; out_lacks passes
     [ $kind != png ] || { rm g/one.png; exits 1 test s --golden g; says missing one; }
 done
+# of an option that counts for nothing, with its place
+fresh 'rules:' '  - {scenes: one, options: "-D a=1 -D a=2"}'; sed -i '1i params: {a: 1}' s/one.yaml
+exits 1 test s --golden g
+ok 'a parameter that is set twice, once' [ "$(cat err)" = 'monge: warning[given-twice]: g/golden.yaml:2: options: -D a=1 counts for nothing, -D a=2 is given later; -D a=1,2 gives both' ]
 # quietly only what is wrong is told, and a document that was asked for
 fresh; exits 0 test s --golden g --update-only-failed; out_has '3 of 3 new pictures are goldens now'
 scene s/one.yaml lime; exits 1 test s --golden g -q; cp out x; says changed one; ok 'no line of what is the same' sh -c '! grep -q ^same out'; out_lacks goldens; no_err

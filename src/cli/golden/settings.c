@@ -46,12 +46,15 @@ static bool read_options(struct golden_settings *settings, struct golden_rule *r
     int count = 0;
     rule->loader =
         (struct loader){.limits = loader->limits, .untrusted = loader->untrusted, .report = loader->report};
-    char *place = say_text("%s:%u: options", settings->path, rule->rule->line);
+    char *place = say_text("%s:%u: options", settings->path, rule->rule->line),
+         *begin = say_text("%s: ", place);
     say_of(place);
     const bool good = split_words(rule, &count) &&
                       options_parse(COMMAND_RENDER, count, rule->words, &rule->args) &&
                       check_options(&rule->args) && sweep_read(&rule->args, &rule->loader.sweep);
     say_of(NULL);
+    if (good) sweep_warn(&rule->args, begin, &loader->report);
+    free(begin);
     free(place);
     return good;
 }
