@@ -14,6 +14,16 @@ flip() {
     # shellcheck disable=SC2059
     printf "\\$(printf %03o $((byte ^ 1)))" | dd of="$1" bs=1 seek="$2" conv=notrunc 2>dd-err
 }
+# foresees STATUS [OPTION...]: monge accept, and before it the same with --dry-run, which writes nothing and tells the same.
+foresees() {
+    wanted=$1; shift
+    find g monge-test -exec stat -c '%n %i %y' {} + | sort >before
+    exits "$wanted" accept --golden g --dry-run "$@"; cp out dry; cp err dry-err
+    find g monge-test -exec stat -c '%n %i %y' {} + | sort >after; ok 'nothing is written' cmp -s before after
+    exits "$wanted" accept --golden g "$@"
+    sed 's/^would take /took /; s/^would remove /removed /; s/ would be taken/ taken/' dry >x
+    ok 'what is told of each is what becomes of it' cmp -s x out; ok 'so is what is wrong' cmp -s dry-err err
+}
 sums() { find "$1" -type f -exec cksum {} + | sort; }
 
 # scene FILE COLOUR [X]: small, of three objects with names.
@@ -820,6 +830,24 @@ for kind in png both; do
     exits 0 test s --golden g -q; out_lacks passes
     [ $kind != png ] || { rm g/one.png; exits 1 test s --golden g; says missing one; }
 done
+# what is wrong with a folder is told once
+fresh; for path in nowhere s/one.yaml/x; do
+    exits 2 test --golden g --root $path; ok 'a root that is not there, once' [ "$(grep -c "^monge: --root $path: " err)" -eq 1 -a "$(wc -l <err)" -eq 1 ]
+    exits 2 test s --golden g --root $path; ok 'nor with scenes twice' [ "$(wc -l <err)" -eq 1 ]
+done
+if [ "$(id -u)" -ne 0 ]; then
+    for kind in png hash both; do
+        fresh 'root: ../s' "kind: $kind"; exits 1 test --golden g -q; chmod a-w g
+        foresees 2; ok 'once' [ "$(cat err)" = 'monge: cannot write into g: Permission denied' ]; ok 'nothing is taken' [ "$(cat out)" = '0 taken' ]
+        chmod u+w g; exits 0 accept --golden g -q; rm s/one.yaml 's/in/a b%.yaml'; exits 1 test --golden g -q; chmod a-w g
+        foresees 2 --prune; ok 'once' [ "$(cat err)" = 'monge: cannot write into g: Permission denied' ]
+        chmod u+w g; exits 0 accept --golden g --prune -q
+    done
+    fresh; exits 1 test s --golden g -q; exits 0 accept --golden g -q 'in/*'; chmod a-w g/in; scene 's/in/a b%.yaml' red; exits 1 test s --golden g -q
+    foresees 2; err_has 'cannot write into g/in: Permission denied'; out_has '2 taken'; chmod u+w g/in
+else
+    left_out 'folders that cannot be written: root can'
+fi
 # of an option that counts for nothing, with its place
 fresh 'rules:' '  - {scenes: one, options: "-D a=1 -D a=2"}'; sed -i '1i params: {a: 1}' s/one.yaml
 exits 1 test s --golden g
@@ -831,17 +859,7 @@ exits 0 test s --golden g --update-only-failed -q; sed 's/^ *new: .*//' out >y; 
 ok 'what has failed is told in the same lines' [ "$(sed 's/^ *new: .*//' x)" = "$(cat y)" ]
 exits 0 test s --golden g -q; no_out; no_err; exits 0 test s --golden g --changed -q; no_out; no_err
 exits 0 test s --golden g -q --tap; out_has '# 3 goldens: 3 same'; exits 0 test s --golden g -q --json -; out_has '"same": 3'
-# a dry run tells what another one would do then, and writes nothing: the exit codes are the same, and so is what is told of each
-# foresees STATUS [OPTION...]: of monge accept.
-foresees() {
-    wanted=$1; shift
-    find g monge-test -exec stat -c '%n %i %y' {} + | sort >before
-    exits "$wanted" accept --golden g --dry-run "$@"; cp out dry; cp err dry-err
-    find g monge-test -exec stat -c '%n %i %y' {} + | sort >after; ok 'nothing is written' cmp -s before after
-    exits "$wanted" accept --golden g "$@"
-    sed 's/^would take /took /; s/^would remove /removed /; s/ would be taken/ taken/' dry >x
-    ok 'what is told of each is what becomes of it' cmp -s x out; ok 'so is what is wrong' cmp -s dry-err err
-}
+# a dry run tells what another one would do then, and writes nothing
 for kind in png hash both; do
     fresh 'root: ../s' "kind: $kind" 'rules: [{scenes: one, aov: true}]'; exits 1 test --golden g -q
     exits 0 accept --golden g -n; out_has 'would take one'; out_has '3 would be taken'; out_lacks took; no_err; missing g/golden.lock

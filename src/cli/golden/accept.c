@@ -1,5 +1,6 @@
 #include "cli/golden/accept.h"
 
+#include <errno.h>
 #include <fnmatch.h>
 #include <stdlib.h>
 #include <string.h>
@@ -26,6 +27,7 @@ struct acceptance {
     const char **scenes; /* owned: names of the scenes of the run, sorted */
     size_t scene_count;
     size_t taken, removed, refused, done; /* done: before, already */
+    char *sealed; /* owned: the folder of which was told last that nothing can be written there; NULL: none */
     bool trouble;
 };
 
@@ -134,7 +136,32 @@ static void tell_case(const struct acceptance *a, const struct golden_case *c, c
     if (!a->args->option[OPTION_QUIET].given) say_line(stdout, "%s %s", is_dry(a) ? foreseen : done, c->name);
 }
 
+/* Once for all goldens of a folder. */
+static bool is_sealed(struct acceptance *a, const char *folder) {
+    if (access(folder, W_OK) == 0 || (errno != EACCES && errno != EROFS)) return false;
+    if (!a->sealed || strcmp(a->sealed, folder) != 0) {
+        say_error("cannot write into %s: %s", folder, strerror(errno));
+        free(a->sealed);
+        a->sealed = say_text("%s", folder);
+    }
+    return true;
+}
+
+/* Whether files of the golden may come and go: in its folder, or the nearest above it that is there, and in that of the
+ * lock. */
+static bool can_write(struct acceptance *a, const struct golden_case *c) {
+    if (c->kind != MONGE_GOLDEN_PNG && is_sealed(a, a->folder)) return false;
+    if (c->kind == MONGE_GOLDEN_HASH) return true;
+    char *folder = path_below(a->folder, c->name, "");
+    do *strrchr(folder, '/') = '\0';
+    while (strlen(folder) > strlen(a->folder) && !golden_is_there(folder));
+    const bool good = !is_sealed(a, folder);
+    free(folder);
+    return good;
+}
+
 static bool take(struct acceptance *a, const struct golden_case *c) {
+    if (!can_write(a, c)) return false;
     return is_dry(a) ? golden_check_places(a->folder, c) : golden_take(a->folder, &a->lock, c);
 }
 
@@ -193,7 +220,7 @@ static void remove_orphan(struct acceptance *a, struct golden_case *c) {
         pass_by(a, c, "removed");
     else if (scene_is_back(a, c->name))
         refuse(a, c, "its scene is there again");
-    else if (!is_dry(a) && !golden_forget(a->folder, &a->lock, c))
+    else if (!can_write(a, c) || (!is_dry(a) && !golden_forget(a->folder, &a->lock, c)))
         a->trouble = true;
     else {
         a->removed++;
@@ -290,6 +317,7 @@ enum status accept_command(const struct arguments *args) {
     struct acceptance a = {.args = args};
     const enum status status = begin(&a) ? settle(&a) : STATUS_TROUBLE;
     free(a.scenes);
+    free(a.sealed);
     golden_results_free(&a.results);
     golden_lock_free(&a.lock);
     golden_settings_free(&a.settings);

@@ -87,8 +87,7 @@ static bool find_root(struct golden_settings *settings, const char *folder,
     free(path);
     settings->root = own;
     if (!given || !given->given) return !root || own;
-    settings->root = realpath(given->text, NULL);
-    if (!settings->root) say_error("--root %s: %s", given->text, strerror(errno));
+    settings->root = realpath(given->text, NULL); /* where there is none, scenes_find has told so */
     settings->other_root = root && settings->root && (!own || strcmp(own, settings->root) != 0);
     free(own);
     return settings->root;
