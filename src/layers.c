@@ -22,30 +22,6 @@ struct monge_layers *monge_layers_read(const char *picture, unsigned wanted, str
     return layers;
 }
 
-/* What the pixel has of the layer. */
-static uint64_t pixel_value(const struct monge_layers *layers, enum monge_layer layer, size_t i) {
-    uint32_t depth;
-    const uint16_t *n = layers->normals;
-    switch (layer) {
-    case MONGE_LAYER_DEPTH: memcpy(&depth, &layers->depth[i], sizeof depth); return depth;
-    case MONGE_LAYER_NORMAL: return (uint64_t)n[3 * i] << 32 | (uint64_t)n[3 * i + 1] << 16 | n[3 * i + 2];
-    default: return layers->lights[i];
-    }
-}
-
-bool monge_layer_hash(const struct monge_layers *layers, enum monge_layer layer, char text[MONGE_HASH_SIZE]) {
-    struct hash hash;
-    const bool known =
-        layer == MONGE_LAYER_DEPTH || layer == MONGE_LAYER_NORMAL || layer == MONGE_LAYER_SHADOW;
-    if (!known || !(layers->set >> layer & 1)) return false;
-    hash_begin(&hash);
-    hash_integer(&hash, layers->region.width);
-    hash_integer(&hash, layers->region.height);
-    for (size_t i = 0; i < layers_pixels(layers); i++) hash_integer(&hash, pixel_value(layers, layer, i));
-    hash_text(&hash, text);
-    return true;
-}
-
 /* ---- Changes ---- */
 
 /* Which pixels of the pictures differ by more than how->max_delta; to be freed. NULL: the reason. */

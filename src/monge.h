@@ -544,12 +544,14 @@ size_t monge_layer_path(enum monge_layer layer, const char *picture, char *path,
 
 /* Writes one layer that is there. PNG of 16 bits, of one channel or where that is not enough of three, the lowest
  * 16 bits in red, then green and blue; objects and materials with their entries as JSON in the text chunk
- * monge:table. Depth is a PFM. A file is complete or absent. False: diag says why, as a failure. */
+ * monge:table, objects with the hash of the depth, where that is there, in monge:depth. Depth is a PFM. A file is
+ * complete or absent. False: diag says why, as a failure. */
 bool monge_layer_write(const struct monge_layers *layers, enum monge_layer layer, const char *path,
                        struct monge_diagnostics *diag);
 
 /* Reads those layers of `wanted` again that are beside the picture. NULL when none of them is there, which is no
- * failure, or when one cannot be read or does not fit the others: then diag has a failure. */
+ * failure, or when one cannot be read, does not fit the others, or is a depth of which the file of the objects, wanted
+ * or not, has another hash: then diag has a failure. */
 struct monge_layers *monge_layers_read(const char *picture, unsigned wanted, struct monge_diagnostics *diag);
 
 /* A hash of one of the layers depth, normal and shadow, of what each pixel has: equal ones show the same. False: it is

@@ -382,6 +382,13 @@ exits 0 render -q "${small[@]}" params.yaml -D a=2 --define b=0.25 '-Dv=[0, 1, 0
 ok "-D is as if it were written" same_pixels params.png literal.png
 exits 0 render -q "${small[@]}" params.yaml -D a=1 -D a=2 -D b=0.25 -D 'v=[0, 1, 0]' -D 'tint="tomato"'
 ok "the last -D of a name counts" same_pixels params.png literal.png
+err_has 'monge: warning[given-twice]: -D a=1 counts for nothing, -D a=2 is given later; -D a=1,2 gives both'
+exits 0 check -q params.yaml -D a=1 -D b=1 -D a=1,2 -D 'tint="#fff"' -Da=3 --define 'tint=rgb(1, 0, 0)'
+ok "each that does not count" [ "$(cat err)" = 'monge: warning[given-twice]: -D a=1 counts for nothing, -D a=3 is given later; -D a=1,3 gives both
+monge: warning[given-twice]: -D a=1,2 counts for nothing, -D a=3 is given later; -D a=1,2,3 gives both
+monge: warning[given-twice]: -D '\''tint="#fff"'\'' counts for nothing, -D '\''tint=rgb(1, 0, 0)'\'' is given later; -D '\''tint="#fff",rgb(1, 0, 0)'\'' gives both' ]
+exits 0 check params.yaml -D a=1 -D b=1 -D a=1; no_err
+exits 0 check params.yaml -D a=1 -D a=2 --format json; out_has '"code": "given-twice"'; out_has '"severity": "warning"'; no_err
 exits 0 check params.yaml -D a=2; ok "one value is no sweep" [ "$(cat out)" = 'params.yaml: ok' ]
 exits 1 render params.yaml -D aa=2; err_has 'error[unknown-parameter]'; err_has 'its parameters: a, b, v, tint'
 exits 1 check params.yaml -D a=-2; out_has '1 error'

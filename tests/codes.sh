@@ -18,6 +18,7 @@ cannot-make-folder  no scene: tests/batch.sh
 cannot-read         no scene: tests/formats/expected.json
 cannot-write        no scene: tests/formats.sh
 format-differs      a mistake in Monge, none is known that gives it: tests/unit/test_format.c
+given-twice         an option: tests/cli.sh
 include-outside     a scene of a stranger: tests/unit/test_diagnostics.c
 limit-file-bytes    a file of over 1 GiB: tests/unit/test_diagnostics.c
 limit-instances     a render, which check has not: tests/cli.sh

@@ -8,6 +8,22 @@ export NO_COLOR=1
 
 # says STATUS NAME: the line of a golden.
 says() { ok "$2 is $1" grep -qE "^$1 +$2(  |$)" out; }
+# flip FILE N: another last bit of the byte at N, of N + 1 bytes from the beginning.
+flip() {
+    byte=$(od -An -tu1 -j "$2" -N 1 "$1")
+    # shellcheck disable=SC2059
+    printf "\\$(printf %03o $((byte ^ 1)))" | dd of="$1" bs=1 seek="$2" conv=notrunc 2>dd-err
+}
+# foresees STATUS [OPTION...]: monge accept, and before it the same with --dry-run, which writes nothing and tells the same.
+foresees() {
+    wanted=$1; shift
+    find g monge-test -exec stat -c '%n %i %y' {} + | sort >before
+    exits "$wanted" accept --golden g --dry-run "$@"; cp out dry; cp err dry-err
+    find g monge-test -exec stat -c '%n %i %y' {} + | sort >after; ok 'nothing is written' cmp -s before after
+    exits "$wanted" accept --golden g "$@"
+    sed 's/^would take /took /; s/^would remove /removed /; s/ would be taken/ taken/' dry >x
+    ok 'what is told of each is what becomes of it' cmp -s x out; ok 'so is what is wrong' cmp -s dry-err err
+}
 sums() { find "$1" -type f -exec cksum {} + | sort; }
 
 # scene FILE COLOUR [X]: small, of three objects with names.
@@ -107,7 +123,7 @@ for kind in png hash both; do
     sums g >before
     exits 0 test s --golden g; says same one; says same 'in/a b%'; out_has '3 goldens: 3 same'
     ok 'no new pictures' [ -z "$(find monge-test -name '*.png')" ]
-    exits 0 test s --golden g -q; ok 'quiet: the summary alone' [ "$(wc -l <out)" -eq 1 ]
+    exits 0 test s --golden g -q; no_out; no_err
 
     scene s/one.yaml '"#ff0001"'
     exits 1 test s --golden g; says changed one; says same two
@@ -332,9 +348,9 @@ fresh 'kind: hash'
 exits 0 test s/one.yaml s/two.yaml --golden g --update-only-failed -q
 line=$(grep '^one ' g/golden.lock); line=${line#one}
 seq -f "a%04g$line" 3000 >>g/golden.lock; seq -f "s%04g$line" 3000 >>g/golden.lock
-exits 1 test s --golden g -q; out_has '6003 goldens: 2 same, 1 new, 6000 orphan'
+exits 1 test s --golden g; out_has '6003 goldens: 2 same, 1 new, 6000 orphan'
 exits 0 accept 'a*' 'in/*' --golden g --prune -q
-ok 'the new line is at its place' sh -c 'grep -v "^#" g/golden.lock | LC_ALL=C sort -c'; exits 1 test s --golden g -q; out_has '3003 goldens: 3 same, 3000 orphan'
+ok 'the new line is at its place' sh -c 'grep -v "^#" g/golden.lock | LC_ALL=C sort -c'; exits 1 test s --golden g; out_has '3003 goldens: 3 same, 3000 orphan'
 exits 0 accept --golden g --prune; out_has '0 taken, 3000 removed'; exits 0 test s --golden g -q
 ok 'the lines that are left' [ "$(grep -o '^[^# ]*' g/golden.lock | tr '\n' ,)" = in/a%20b%25,one,two, ]
 # What a frame makes may be called as another scene.
@@ -829,6 +845,11 @@ for kind in png both; do
         exits 1 test s --golden g --changed; says missing one
         exits 0 accept --golden g -q; exits 0 test s --golden g
     done
+    # a PFM has no sums: the hash that the objects have tells
+    flip g/one.depth.pfm 1000; exits 1 test s --golden g; says missing one; out_has '2 same, 1 missing'
+    out_has 'cannot read g/one.depth.pfm: it is damaged, or not of the rendering that the layer object is of'
+    flip g/one.depth.pfm 1000; exits 0 test s --golden g; flip g/one.depth.pfm 1000
+    exits 1 test s --golden g -q; exits 0 accept --golden g -q; exits 0 test s --golden g
     [ $kind != png ] || { rm g/one.png; exits 1 test s --golden g; says missing one; out_has 'g/one.png is not there, but its passes are'; }
     exits 0 test s --golden g --update-only-failed -q
     # without aov nothing is said of them but that they are there
@@ -838,6 +859,93 @@ for kind in png both; do
     exits 0 test s --golden g -q; out_lacks passes
     [ $kind != png ] || { rm g/one.png; exits 1 test s --golden g; says missing one; }
 done
+# what is wrong with a folder is told once
+fresh; for path in nowhere s/one.yaml/x; do
+    exits 2 test --golden g --root $path; ok 'a root that is not there, once' [ "$(grep -c "^monge: --root $path: " err)" -eq 1 -a "$(wc -l <err)" -eq 1 ]
+    exits 2 test s --golden g --root $path; ok 'nor with scenes twice' [ "$(wc -l <err)" -eq 1 ]
+done
+if [ "$(id -u)" -ne 0 ]; then
+    for kind in png hash both; do
+        fresh 'root: ../s' "kind: $kind"; exits 1 test --golden g -q; chmod a-w g
+        foresees 2; ok 'once' [ "$(cat err)" = 'monge: cannot write into g: Permission denied' ]; ok 'nothing is taken' [ "$(cat out)" = '0 taken' ]
+        chmod u+w g; exits 0 accept --golden g -q; rm s/one.yaml 's/in/a b%.yaml'; exits 1 test --golden g -q; chmod a-w g
+        foresees 2 --prune; ok 'once' [ "$(cat err)" = 'monge: cannot write into g: Permission denied' ]
+        chmod u+w g; exits 0 accept --golden g --prune -q
+    done
+    fresh; exits 1 test s --golden g -q; exits 0 accept --golden g -q 'in/*'; chmod a-w g/in; scene 's/in/a b%.yaml' red; exits 1 test s --golden g -q
+    foresees 2; err_has 'cannot write into g/in: Permission denied'; out_has '2 taken'; chmod u+w g/in
+else
+    left_out 'folders that cannot be written: root can'
+fi
+# of an option that counts for nothing, with its place
+fresh 'rules:' '  - {scenes: one, options: "-D a=1 -D a=2"}'; sed -i '1i params: {a: 1}' s/one.yaml
+exits 1 test s --golden g
+ok 'a parameter that is set twice, once' [ "$(cat err)" = 'monge: warning[given-twice]: g/golden.yaml:2: options: -D a=1 counts for nothing, -D a=2 is given later; -D a=1,2 gives both' ]
+# quietly only what is wrong is told, and a document that was asked for
+fresh; exits 0 test s --golden g --update-only-failed; out_has '3 of 3 new pictures are goldens now'
+scene s/one.yaml lime; exits 1 test s --golden g -q; cp out x; says changed one; ok 'no line of what is the same' sh -c '! grep -q ^same out'; out_lacks goldens; no_err
+exits 0 test s --golden g --update-only-failed -q; sed 's/^ *new: .*//' out >y; says changed one; out_lacks goldens
+ok 'what has failed is told in the same lines' [ "$(sed 's/^ *new: .*//' x)" = "$(cat y)" ]
+exits 0 test s --golden g -q; no_out; no_err; exits 0 test s --golden g --changed -q; no_out; no_err
+exits 0 test s --golden g -q --tap; out_has '# 3 goldens: 3 same'; exits 0 test s --golden g -q --json -; out_has '"same": 3'
+# a dry run tells what another one would do then, and writes nothing
+for kind in png hash both; do
+    fresh 'root: ../s' "kind: $kind" 'rules: [{scenes: one, aov: true}]'; exits 1 test --golden g -q
+    exits 0 accept --golden g -n; out_has 'would take one'; out_has '3 would be taken'; out_lacks took; no_err; missing g/golden.lock
+    foresees 0; out_has '3 taken'; foresees 0; out_has '0 taken, 3 done already'
+    scene s/one.yaml lime; scene s/two.yaml red; scene s/new.yaml red; rm 's/in/a b%.yaml'; exits 1 test --golden g -q
+    scene s/two.yaml teal
+    exits 1 accept 'in/*' two --golden g --prune -nq; no_out; err_has 'two is left as it is: the scene has changed since the run'
+    foresees 1 --prune; ok 'the lines of a dry run' [ "$(cat dry)" = 'would remove in/a b%
+would take new
+would take one
+2 would be taken, 1 removed, 1 left as they are' ]
+done
+fresh; exits 1 test s --golden g -q; mkdir elsewhere; ln -s ../elsewhere g/in
+foresees 2; err_has 'g/in is a link: goldens are files in their folder'; rm -r elsewhere
+exits 2 accept -n; err_has '--golden DIR is missing'
+# what is taken leaves files alone that are the same already: by their bytes, or by all that a pass has to say
+stamps() { stat -c '%n %i %y' "$@"; }
+for kind in png both; do
+    fresh "kind: $kind" 'rules: [{scenes: one, aov: true}]'; exits 0 test s --golden g --update-only-failed -q
+    passes='g/one.object.png g/one.material.png g/one.normal.png g/one.shadow.png'
+    # shellcheck disable=SC2086
+    stamps $passes g/one.png g/golden.yaml g/two.png $([ $kind = png ] || echo g/golden.lock) >before
+    rm g/one.depth.pfm; exits 1 test s --golden g -q; exits 0 accept --golden g; out_has 'took one'; there g/one.depth.pfm
+    # shellcheck disable=SC2086
+    stamps $passes g/one.png g/golden.yaml g/two.png $([ $kind = png ] || echo g/golden.lock) >after
+    ok 'of a golden without its depth only that is written' cmp -s before after
+    stamps g/one.depth.pfm >before; stamps g/one.object.png >object; scene s/one.yaml blue; exits 1 test s --golden g -q
+    exits 0 accept --golden g; stamps g/one.depth.pfm >after; ok 'depth that is equal is not written' cmp -s before after
+    stamps g/one.object.png >after; ok 'passes of another rendering are written' sh -c '! cmp -s object after'
+    exits 0 test s --golden g; out_lacks passes
+done
+if command -v python3 >where; then
+    # rewrite FILE FROM TO: a text in a chunk of a PNG, with its sum, and the pixels not compressed.
+    cat >rewrite.py <<'PY'
+import struct, sys, zlib
+path, old, new = sys.argv[1], sys.argv[2].encode(), sys.argv[3].encode()
+data, out, pixels, at, found = open(path, 'rb').read(), b'', b'', 8, 0
+def chunk(kind, body): return struct.pack('>I', len(body)) + kind + body + struct.pack('>I', zlib.crc32(kind + body))
+while at < len(data):
+    size, kind = struct.unpack('>I4s', data[at:at + 8])
+    body, at = data[at + 8:at + 8 + size], at + 12 + size
+    if kind == b'IDAT': pixels += body
+    elif kind == b'IEND': out += chunk(b'IDAT', zlib.compress(zlib.decompress(pixels), 0)) + chunk(kind, body)
+    else: found += body.count(old); out += chunk(kind, body.replace(old, new))
+assert found == 1
+open(path, 'wb').write(data[:8] + out)
+PY
+    fresh 'rules: [{scenes: one, aov: true}]'; exits 0 test s --golden g --update-only-failed -q
+    cp g/one.object.png x; python3 rewrite.py g/one.object.png 'Software' 'Swftoare'; cp g/one.material.png y
+    python3 rewrite.py g/one.material.png 'monge:table' 'monge:tabel'
+    ok 'other bytes' sh -c '! cmp -s g/one.object.png x && ! cmp -s g/one.material.png y'
+    stamps g/one.object.png >before; rm g/one.depth.pfm; exits 1 test s --golden g -q; exits 0 accept --golden g; out_has 'took one'
+    stamps g/one.object.png >after; ok 'a pass with the same pixels and texts is not written' cmp -s before after
+    ok 'one without its table is' cmp -s g/one.material.png y
+    exits 0 accept --golden g; out_has 'one is taken already'
+    exits 0 test s --golden g -q
+fi
 # what a link in the folder leads to stays as it is
 fresh; mkdir -p away; echo mine >away/victim; cp away/victim away/kept
 ln -s ../away/victim g/one.png; ln -s ../away g/in; exits 1 test s --golden g -q
@@ -952,7 +1060,7 @@ if have perl; then
     ok 'accept says what is not' [ "$(cat err)" = 'the run was interrupted: 3 scenes not judged' ]; there g/gone.png
     interrupted --tap; ok 'TAP bails out' [ "$(tail -n 1 out)" = 'Bail out! interrupted: 3 scenes not judged' ]
     interrupted --update-only-failed; ok 'no golden is touched' [ -z "$(find g -newer s/d.yaml -name '*.png')" ]
-    rm s/d.yaml; exits 1 test s --golden g -q; ok 'then all is judged' grep -q '4 changed, 1 orphan' out; ok 'a whole run' sh -c '! grep -q interrupted monge-test/results.json'
+    rm s/d.yaml; exits 1 test s --golden g; ok 'then all is judged' grep -q '4 changed, 1 orphan' out; ok 'a whole run' sh -c '! grep -q interrupted monge-test/results.json'
 fi
 
 told

@@ -88,8 +88,8 @@ const struct option_row OPTION_TABLE[OPTIONS] = {
                                "leave pictures alone that program, options and files would make again"},
     [OPTION_RESUME] = {"resume", 0, VALUE_NONE, IN_RENDER, NULL, 0, 0,
                        "go on where a run with --resume was stopped; implies --skip-unchanged"},
-    [OPTION_DRY_RUN] = {"dry-run", 'n', VALUE_NONE, IN_RENDER, NULL, 0, 0,
-                        "write nothing; tell which pictures would be rendered, and which not"},
+    [OPTION_DRY_RUN] = {"dry-run", 'n', VALUE_NONE, IN_RENDER | IN_ACCEPT, NULL, 0, 0,
+                        "write nothing; tell what would become of each picture"},
     [OPTION_KEEP_GOING] = {"keep-going", 'k', VALUE_NONE, IN_RENDER, NULL, 0, 0,
                            "after a failure render the others all the same; this is the default"},
     [OPTION_FAIL_FAST] = {"fail-fast", 0, VALUE_NONE, IN_RENDER, NULL, 0, 0,
@@ -381,8 +381,9 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                      "touched.",
                      "With --prune, goldens whose scenes were gone in that run are removed. Exit status 1 "
                      "where something "
-                     "that was asked for is left as it is."},
+                     "that was asked for is left as it is, with --dry-run where it would be."},
             .examples = {{"monge accept --golden goldens/", "all of them"},
+                         {"monge accept --golden goldens/ --dry-run", "which that would be"},
                          {"monge accept 'gallery/*' --golden goldens/ --prune",
                           "some, and away with orphans"}},
             .run = accept_command,

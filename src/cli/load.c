@@ -9,6 +9,7 @@ bool loader_begin(struct loader *loader, const struct arguments *args) {
     if (!sweep_read(args, &loader->sweep) || !limits_read(args, &loader->limits) ||
         !report_begin(&loader->report, args))
         return false;
+    sweep_warn(args, "", &loader->report);
     scenes_find(&loader->scenes, args, SCENES_ALONE, &loader->limits.load, &loader->report);
     return true;
 }

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "cli/say.h"
+#include "cli/words.h"
 
 enum { MAX_COMBINATIONS = 1000000 };
 
@@ -163,6 +164,36 @@ bool sweep_read(const struct arguments *args, struct sweep *sweep) {
         return false;
     }
     return true;
+}
+
+/* The last one behind pair `i` that is of its parameter; NULL: there is none. */
+static const char *find_later(const struct arguments *args, size_t i) {
+    const char *text = args->pairs[i].text;
+    const size_t length = strcspn(text, "=") + 1;
+    for (size_t k = args->pair_count; --k > i;)
+        if (args->pairs[k].option == OPTION_DEFINE && strncmp(args->pairs[k].text, text, length) == 0)
+            return args->pairs[k].text;
+    return NULL;
+}
+
+static void warn_of(const char *text, const char *later, const char *place, const struct report *report) {
+    char *both = say_text("%s,%s", text, strchr(later, '=') + 1);
+    char *quoted = word_quoted(text), *quoted_later = word_quoted(later), *quoted_both = word_quoted(both);
+    report_warning(report, "given-twice",
+                   "%s-D %s counts for nothing, -D %s is given later; -D %s gives both", place, quoted,
+                   quoted_later, quoted_both);
+    free(quoted_both);
+    free(quoted_later);
+    free(quoted);
+    free(both);
+}
+
+void sweep_warn(const struct arguments *args, const char *place, const struct report *report) {
+    for (size_t i = 0; i < args->pair_count; i++) {
+        const char *text = args->pairs[i].text;
+        const char *later = args->pairs[i].option == OPTION_DEFINE ? find_later(args, i) : NULL;
+        if (later && strcmp(text, later) != 0) warn_of(text, later, place, report);
+    }
 }
 
 void sweep_free(struct sweep *sweep) {

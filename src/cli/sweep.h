@@ -6,6 +6,7 @@
 #define MONGE_CLI_SWEEP_H
 
 #include "cli/options.h"
+#include "cli/report.h"
 #include "monge.h"
 
 struct axis {
@@ -22,6 +23,11 @@ struct sweep {
 
 /* Reads all -D. False, with the reason on stderr, when one makes no sense. Either way to be freed. */
 bool sweep_read(const struct arguments *args, struct sweep *sweep);
+
+/* Warns of each -D that was read and counts for nothing, since a later one sets its parameter to something else. `place`
+ * begins what is told: "" is the command line. */
+void sweep_warn(const struct arguments *args, const char *place, const struct report *report);
+
 void sweep_free(struct sweep *sweep);
 
 /* Combination number `index`: sweep->count values, in defines[]; the texts stay the sweep's. */

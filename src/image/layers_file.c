@@ -43,6 +43,32 @@ static void set_number(struct monge_layers *layers, enum monge_layer layer, size
         layers->ids[layer][i] = (uint32_t)number;
 }
 
+/* ---- Hashes ---- */
+
+/* What the pixel has of the layer. */
+static uint64_t pixel_value(const struct monge_layers *layers, enum monge_layer layer, size_t i) {
+    uint32_t depth;
+    const uint16_t *n = layers->normals;
+    switch (layer) {
+    case MONGE_LAYER_DEPTH: memcpy(&depth, &layers->depth[i], sizeof depth); return depth;
+    case MONGE_LAYER_NORMAL: return (uint64_t)n[3 * i] << 32 | (uint64_t)n[3 * i + 1] << 16 | n[3 * i + 2];
+    default: return layers->lights[i];
+    }
+}
+
+bool monge_layer_hash(const struct monge_layers *layers, enum monge_layer layer, char text[MONGE_HASH_SIZE]) {
+    struct hash hash;
+    const bool known =
+        layer == MONGE_LAYER_DEPTH || layer == MONGE_LAYER_NORMAL || layer == MONGE_LAYER_SHADOW;
+    if (!known || !(layers->set >> layer & 1)) return false;
+    hash_begin(&hash);
+    hash_integer(&hash, layers->region.width);
+    hash_integer(&hash, layers->region.height);
+    for (size_t i = 0; i < layers_pixels(layers); i++) hash_integer(&hash, pixel_value(layers, layer, i));
+    hash_text(&hash, text);
+    return true;
+}
+
 /* ---- Writing ---- */
 
 static bool write_samples(const struct monge_layers *layers, const char *path, struct samples *samples,
@@ -74,6 +100,7 @@ static bool write_numbers(const struct monge_layers *layers, enum monge_layer la
                has_camera = layer == MONGE_LAYER_OBJECT && layers->camera.entry.kind;
     char key[] = "monge:table", *table = has_table ? layer_table_text(&layers->entries[layer]) : NULL;
     char camera_key[] = "monge:camera", *camera = has_camera ? layer_camera_text(&layers->camera) : NULL;
+    char depth_key[] = "monge:depth", depth[HASH_TEXT_SIZE];
     struct samples samples = {.channels = bits_of(layers, layer) > 16 ? 3 : 1};
     samples.values = malloc(pixels * samples.channels * sizeof *samples.values);
     bool good = samples.values && (table || !has_table) && (camera || !has_camera);
@@ -83,6 +110,8 @@ static bool write_numbers(const struct monge_layers *layers, enum monge_layer la
             samples.values[samples.channels * i + c] = (uint16_t)(number_at(layers, layer, i) >> (16 * c));
     if (has_table) samples.texts[samples.text_count++] = (struct samples_text){key, table};
     if (has_camera) samples.texts[samples.text_count++] = (struct samples_text){camera_key, camera};
+    if (layer == MONGE_LAYER_OBJECT && monge_layer_hash(layers, MONGE_LAYER_DEPTH, depth))
+        samples.texts[samples.text_count++] = (struct samples_text){depth_key, depth};
     good = good && write_samples(layers, path, &samples, message, size);
     free(samples.values);
     free(camera);
@@ -227,25 +256,52 @@ static bool read_picture(struct reading *reading, enum monge_layer layer, const 
     return good;
 }
 
-static bool read_depth(struct reading *reading, const char *path) {
+/* The file of a layer beside the picture. To be freed; NULL: no memory. */
+static char *path_of(enum monge_layer layer, const char *picture) {
+    const size_t size = monge_layer_path(layer, picture, NULL, 0) + 1;
+    char *path = malloc(size);
+    if (path) monge_layer_path(layer, picture, path, size);
+    return path;
+}
+
+/* Whether the depth is that which the objects were written with: a PFM has no sums of its own. Objects that cannot be
+ * read, or that say nothing of it, do not tell. */
+static bool is_depth_of(const struct monge_layers *layers, const char *objects) {
+    struct monge_picture picture = {.name = NULL};
+    char reason[PICTURE_REASON_SIZE], depth[HASH_TEXT_SIZE];
+    bool system;
+    const char *said =
+        picture_open(&picture, objects, reason, &system) ? text_of(&picture, "monge:depth") : NULL;
+    const bool same =
+        !said || (monge_layer_hash(layers, MONGE_LAYER_DEPTH, depth) && strcmp(said, depth) == 0);
+    picture_close(&picture);
+    return same;
+}
+
+static bool read_depth(struct reading *reading, const char *path, const char *objects) {
     uint32_t width, height;
     float *values;
     if (!pfm_read(path, MONGE_MAX_PIXELS, &width, &height, &values, reading->message, reading->size))
         return false;
-    const bool good = add_layer(reading, MONGE_LAYER_DEPTH, path, width, height);
-    if (good) memcpy(reading->layers->depth, values, layers_pixels(reading->layers) * sizeof *values);
+    bool good = add_layer(reading, MONGE_LAYER_DEPTH, path, width, height);
+    if (good) {
+        memcpy(reading->layers->depth, values, layers_pixels(reading->layers) * sizeof *values);
+        good = is_depth_of(reading->layers, objects) ||
+               fail(reading, path, "it is damaged, or not of the rendering that the layer object is of");
+    }
     free(values);
     return good;
 }
 
 static bool read_layer(struct reading *reading, enum monge_layer layer, const char *picture) {
-    const size_t length = monge_layer_path(layer, picture, NULL, 0) + 1;
-    char *path = malloc(length);
-    if (!path) return fail(reading, picture, "out of memory");
-    monge_layer_path(layer, picture, path, length);
-    const bool there = access(path, F_OK) == 0;
-    const bool good = !there || (layer == MONGE_LAYER_DEPTH ? read_depth(reading, path)
-                                                            : read_picture(reading, layer, path));
+    char *path = path_of(layer, picture), *objects = path_of(MONGE_LAYER_OBJECT, picture);
+    bool good = path && objects;
+    if (!good)
+        fail(reading, picture, "out of memory");
+    else if (access(path, F_OK) == 0)
+        good = layer == MONGE_LAYER_DEPTH ? read_depth(reading, path, objects)
+                                          : read_picture(reading, layer, path);
+    free(objects);
     free(path);
     return good;
 }

@@ -6,7 +6,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-enum { SAMPLES_TEXTS = 5 };
+enum { SAMPLES_TEXTS = 6 };
 
 struct samples {
     uint32_t width, height;

@@ -492,6 +492,50 @@ static void test_broken_files(void **state) {
     monge_layers_free(third);
 }
 
+static void flip_byte(const char *path, long from_end) {
+    FILE *file = fopen(path, "r+b");
+    assert_int_equal(fseek(file, -from_end, SEEK_END), 0);
+    const int byte = fgetc(file);
+    assert_int_equal(fseek(file, -from_end, SEEK_END), 0);
+    assert_int_equal(fputc(byte ^ 1, file), byte ^ 1);
+    fclose(file);
+}
+
+static void assert_depth_reads(unsigned wanted, bool good) {
+    bool failed;
+    struct monge_layers *layers = read_back("a", wanted, &failed);
+    assert_int_equal(layers != NULL, good);
+    assert_int_equal(failed, !good);
+    monge_layers_free(layers);
+}
+
+/* Each bit of the depth counts where the objects have its hash; where they have none, as of older programs, none does. */
+static void test_damaged_depth(void **state) {
+    (void)state;
+    enum { DEPTH = 1 << MONGE_LAYER_DEPTH, BOTH = DEPTH | 1 << MONGE_LAYER_OBJECT };
+    struct monge_layers *layers = render_good(MANY, 20, 16), *none = render_good(MANY, 20, 16);
+    struct monge_diagnostics *diag = monge_diagnostics_new();
+    for (long at = 1; at <= 20 * 16 * 4; at += 263) {
+        write_all(layers, "a");
+        assert_depth_reads(DEPTH, true);
+        flip_byte("a.depth.pfm", at);
+        assert_depth_reads(DEPTH, false);
+        assert_depth_reads(BOTH, false);
+        assert_depth_reads(1 << MONGE_LAYER_OBJECT, true);
+    }
+    none->set &= ~(unsigned)DEPTH;
+    assert_true(monge_layer_write(none, MONGE_LAYER_OBJECT, "a.object.png", diag));
+    assert_depth_reads(BOTH, true);
+    assert_true(monge_layer_write(layers, MONGE_LAYER_OBJECT, "a.object.png", diag));
+    assert_depth_reads(BOTH, false);
+    unlink("a.object.png");
+    assert_depth_reads(BOTH, true);
+    none->set |= DEPTH;
+    monge_diagnostics_free(diag);
+    monge_layers_free(layers);
+    monge_layers_free(none);
+}
+
 static void test_pfm(void **state) {
     (void)state;
     static const char least[] = "Pf\n2 2\n-1.0\n\0\0\x80\x3f\0\0\0\x40\0\0\x40\x40\0\0\x80\x7f",
@@ -659,6 +703,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(test_files, enter_folder, leave_folder),
         cmocka_unit_test_setup_teardown(test_large_numbers, enter_folder, leave_folder),
         cmocka_unit_test_setup_teardown(test_broken_files, enter_folder, leave_folder),
+        cmocka_unit_test_setup_teardown(test_damaged_depth, enter_folder, leave_folder),
         cmocka_unit_test_setup_teardown(test_pfm, enter_folder, leave_folder),
     };
     for (size_t i = 0; i < COUNT(others); i++) tests[count++] = others[i];

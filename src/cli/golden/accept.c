@@ -1,5 +1,6 @@
 #include "cli/golden/accept.h"
 
+#include <errno.h>
 #include <fnmatch.h>
 #include <stdlib.h>
 #include <string.h>
@@ -26,6 +27,7 @@ struct acceptance {
     const char **scenes; /* owned: names of the scenes of the run, sorted */
     size_t scene_count;
     size_t taken, removed, refused, done; /* done: before, already */
+    char *sealed; /* owned: the folder of which was told last that nothing can be written there; NULL: none */
     bool trouble;
 };
 
@@ -126,6 +128,43 @@ static void pass_by(struct acceptance *a, const struct golden_case *c, const cha
     if (!a->args->option[OPTION_QUIET].given) say_line(stdout, "%s is %s already", c->name, what);
 }
 
+static bool is_dry(const struct acceptance *a) { return a->args->option[OPTION_DRY_RUN].given; }
+
+/* What has become of the golden, or of a dry run would. */
+static void tell_case(const struct acceptance *a, const struct golden_case *c, const char *done,
+                      const char *foreseen) {
+    if (!a->args->option[OPTION_QUIET].given) say_line(stdout, "%s %s", is_dry(a) ? foreseen : done, c->name);
+}
+
+/* Once for all goldens of a folder. */
+static bool is_sealed(struct acceptance *a, const char *folder) {
+    if (access(folder, W_OK) == 0 || (errno != EACCES && errno != EROFS)) return false;
+    if (!a->sealed || strcmp(a->sealed, folder) != 0) {
+        say_error("cannot write into %s: %s", folder, strerror(errno));
+        free(a->sealed);
+        a->sealed = say_text("%s", folder);
+    }
+    return true;
+}
+
+/* Whether files of the golden may come and go: in its folder, or the nearest above it that is there, and in that of the
+ * lock. */
+static bool can_write(struct acceptance *a, const struct golden_case *c) {
+    if (c->kind != MONGE_GOLDEN_PNG && is_sealed(a, a->folder)) return false;
+    if (c->kind == MONGE_GOLDEN_HASH) return true;
+    char *folder = path_below(a->folder, c->name, "");
+    do *strrchr(folder, '/') = '\0';
+    while (strlen(folder) > strlen(a->folder) && !golden_is_there(folder));
+    const bool good = !is_sealed(a, folder);
+    free(folder);
+    return good;
+}
+
+static bool take(struct acceptance *a, const struct golden_case *c) {
+    if (!can_write(a, c)) return false;
+    return is_dry(a) ? golden_check_places(a->folder, c) : golden_take(a->folder, &a->lock, c);
+}
+
 static void take_case(struct acceptance *a, struct golden_case *c) {
     struct monge_diagnostics *diag = monge_diagnostics_new();
     const char *why = diag ? find_obstacle(a, c, diag) : "out of memory";
@@ -136,11 +175,11 @@ static void take_case(struct acceptance *a, struct golden_case *c) {
         pass_by(a, c, "taken");
     else if (!golden_is_as_noted(a->folder, &a->lock, c))
         refuse(a, c, "its golden has changed since the run: `monge test` compares it anew");
-    else if (!golden_take(a->folder, &a->lock, c))
+    else if (!take(a, c))
         a->trouble = true;
     else {
         a->taken++;
-        if (!a->args->option[OPTION_QUIET].given) say_line(stdout, "took %s", c->name);
+        tell_case(a, c, "took", "would take");
     }
 }
 
@@ -181,11 +220,11 @@ static void remove_orphan(struct acceptance *a, struct golden_case *c) {
         pass_by(a, c, "removed");
     else if (scene_is_back(a, c->name))
         refuse(a, c, "its scene is there again");
-    else if (!golden_forget(a->folder, &a->lock, c))
+    else if (!can_write(a, c) || (!is_dry(a) && !golden_forget(a->folder, &a->lock, c)))
         a->trouble = true;
     else {
         a->removed++;
-        if (!a->args->option[OPTION_QUIET].given) say_line(stdout, "removed %s", c->name);
+        tell_case(a, c, "removed", "would remove");
     }
 }
 
@@ -224,10 +263,10 @@ static enum status settle(struct acceptance *a) {
     interrupt_defer();
     for (size_t i = 0; i < a->results.count && !interrupt_pending(); i++)
         settle_case(a, &a->results.cases[i]);
-    if (a->taken + a->removed > 0 && !golden_lock_write(&a->lock)) a->trouble = true;
+    if (!is_dry(a) && a->taken + a->removed > 0 && !golden_lock_write(&a->lock)) a->trouble = true;
     interrupt_settle();
     if (!a->args->option[OPTION_QUIET].given) {
-        printf("%zu taken", a->taken);
+        printf("%zu %staken", a->taken, is_dry(a) ? "would be " : "");
         if (a->removed > 0) printf(", %zu removed", a->removed);
         if (a->done > 0) printf(", %zu done already", a->done);
         if (a->refused > 0) printf(", %zu left as they are", a->refused);
@@ -278,6 +317,7 @@ enum status accept_command(const struct arguments *args) {
     struct acceptance a = {.args = args};
     const enum status status = begin(&a) ? settle(&a) : STATUS_TROUBLE;
     free(a.scenes);
+    free(a.sealed);
     golden_results_free(&a.results);
     golden_lock_free(&a.lock);
     golden_settings_free(&a.settings);

@@ -84,12 +84,26 @@ bool golden_write(const char *path, const struct monge_text *text) {
     return good;
 }
 
+static bool has_bytes(const char *path, const struct monge_text *text) {
+    struct monge_diagnostics *diag = monge_diagnostics_new();
+    struct monge_text there = {NULL, 0};
+    const bool read = diag && path_is_file(path) && monge_text_read(path, NULL, &there, diag);
+    const bool same = read && there.size == text->size && memcmp(there.bytes, text->bytes, text->size) == 0;
+    monge_text_free(&there);
+    monge_diagnostics_free(diag);
+    return same;
+}
+
+bool golden_update(const char *path, const struct monge_text *text) {
+    return has_bytes(path, text) || golden_write(path, text);
+}
+
 bool golden_copy(const char *from, const char *to) {
     struct monge_diagnostics *diag = monge_diagnostics_new();
     struct monge_text text = {NULL, 0};
     const bool read = diag && monge_text_read(from, NULL, &text, diag);
     if (diag && !read) monge_diagnostics_print(diag, say_stream());
-    const bool good = read && golden_write(to, &text);
+    const bool good = read && golden_update(to, &text);
     monge_text_free(&text);
     monge_diagnostics_free(diag);
     return good;

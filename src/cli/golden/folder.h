@@ -24,6 +24,9 @@ char *golden_real_path(const char *path);
 
 /* The file, complete or not at all, in folders that are made. False, with the reason told. */
 bool golden_write(const char *path, const struct monge_text *text);
+
+/* The same of goldens, which are left alone where they have these bytes already. */
+bool golden_update(const char *path, const struct monge_text *text);
 bool golden_copy(const char *from, const char *to);
 
 /* Whether a path below the folder stays there: false, with the reason told, where a part of it is a symbolic link. */

@@ -128,7 +128,7 @@ static bool has_pass(const char *picture, enum monge_layer layer) {
     return there;
 }
 
-/* As far as that is quickly told: a PNG by the sums of its chunks, depth by its size. */
+/* As far as that is quickly told: a PNG by the sums of its chunks, depth by its hash. */
 static bool is_whole(const char *picture, enum monge_layer layer, struct monge_diagnostics *diag) {
     const bool is_depth = layer == MONGE_LAYER_DEPTH;
     char *path = aov_path(layer, picture);

@@ -270,7 +270,7 @@ bool golden_lock_write(const struct golden_lock *lock) {
             print_line(out, lock->lines[i].name, &lock->lines[i].stamp);
             putc('\n', out);
         }
-    const bool good = out && fclose(out) == 0 && golden_write(lock->path, &text);
+    const bool good = out && fclose(out) == 0 && golden_update(lock->path, &text);
     free(text.bytes);
     return good;
 }

@@ -46,12 +46,15 @@ static bool read_options(struct golden_settings *settings, struct golden_rule *r
     int count = 0;
     rule->loader =
         (struct loader){.limits = loader->limits, .untrusted = loader->untrusted, .report = loader->report};
-    char *place = say_text("%s:%u: options", settings->path, rule->rule->line);
+    char *place = say_text("%s:%u: options", settings->path, rule->rule->line),
+         *begin = say_text("%s: ", place);
     say_of(place);
     const bool good = split_words(rule, &count) &&
                       options_parse(COMMAND_RENDER, count, rule->words, &rule->args) &&
                       check_options(&rule->args) && sweep_read(&rule->args, &rule->loader.sweep);
     say_of(NULL);
+    if (good) sweep_warn(&rule->args, begin, &loader->report);
+    free(begin);
     free(place);
     return good;
 }
@@ -84,8 +87,7 @@ static bool find_root(struct golden_settings *settings, const char *folder,
     free(path);
     settings->root = own;
     if (!given || !given->given) return !root || own;
-    settings->root = realpath(given->text, NULL);
-    if (!settings->root) say_error("--root %s: %s", given->text, strerror(errno));
+    settings->root = realpath(given->text, NULL); /* where there is none, scenes_find has told so */
     settings->other_root = root && settings->root && (!own || strcmp(own, settings->root) != 0);
     free(own);
     return settings->root;

@@ -23,7 +23,8 @@ struct golden_settings {
 };
 
 /* Reads FOLDER/golden.yaml, where it is there. kind: of all goldens, whatever it says; NULL: as it says. root: the option,
- * which goes before its `root` if it is given; may be NULL. False, with the reason told. Either way to be freed. */
+ * with which scenes_find was called, and which goes before its `root` if it is given; may be NULL. False, with the reason told.
+ * Either way to be freed. */
 bool golden_settings_read(struct golden_settings *settings, const char *folder,
                           const enum monge_golden_kind *kind, const struct option_value *root,
                           const struct loader *loader);

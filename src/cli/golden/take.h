@@ -14,6 +14,9 @@ bool golden_is_as_noted(const char *folder, const struct golden_lock *lock, cons
 /* Whether the new picture of the case is its golden already. */
 bool golden_is_taken(const char *folder, const struct golden_lock *lock, const struct golden_case *c);
 
+/* Whether golden_take would write into the folder of the goldens, not where a link leads. False, with the reason told. */
+bool golden_check_places(const char *folder, const struct golden_case *c);
+
 /* Makes the new picture of the case its golden: in FOLDER, and in the lock, which is to be written. False, with the
  * reason told. */
 bool golden_take(const char *folder, struct golden_lock *lock, const struct golden_case *c);

@@ -129,7 +129,7 @@ void golden_tell_end(struct golden_teller *teller, const struct golden_results *
         fprintf(teller->out, "Bail out! %s\n", interruption);
     else if (teller->tap)
         fprintf(teller->out, "1..%zu\n# %s\n", teller->told, summary);
-    else
+    else if (!teller->quiet)
         fprintf(teller->out, "%s, in %.1f s\n", summary, results->seconds);
     free(interruption);
     free(summary);

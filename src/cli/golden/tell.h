@@ -9,7 +9,7 @@
 struct golden_teller {
     FILE *out;
     bool tap;    /* as TAP version 13 */
-    bool quiet;  /* what is the same is passed by */
+    bool quiet;  /* only what is not the same is told */
     bool colors; /* of a terminal */
     size_t told; /* cases so far */
 };

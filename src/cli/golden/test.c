@@ -281,7 +281,7 @@ static bool take_new(struct test *test) {
         taken += c->taken;
     }
     if (taken > 0 && !golden_lock_write(&run->lock)) return false;
-    if (wanted > 0 && !test->teller.tap)
+    if (wanted > 0 && !test->teller.tap && !test->teller.quiet)
         fprintf(test->teller.out, "%zu of %zu new pictures are goldens now\n", taken, wanted);
     return good;
 }
