@@ -74,17 +74,15 @@ bool monge_layer_hash(const struct monge_layers *layers, enum monge_layer layer,
 static bool write_samples(const struct monge_layers *layers, const char *path, struct samples *samples,
                           char *message, size_t size) {
     const struct monge_region r = layers->region;
-    char software[] = "Monge " MONGE_VERSION, software_key[] = "Software", region_key[] = "monge:region";
-    char scene_key[] = "monge:scene", scene[HASH_TEXT_SIZE], region[80];
-    samples->width = r.width;
-    samples->height = r.height;
-    samples->texts[samples->text_count++] = (struct samples_text){software_key, software};
-    memcpy(scene, layers->scene, sizeof scene);
-    if (*scene) samples->texts[samples->text_count++] = (struct samples_text){scene_key, scene};
+    const bool is_part = r.width != layers->width || r.height != layers->height;
+    char region[80];
     snprintf(region, sizeof region, "%u,%u,%u,%u of %ux%u", r.x, r.y, r.width, r.height, layers->width,
              layers->height);
-    if (r.width != layers->width || r.height != layers->height)
-        samples->texts[samples->text_count++] = (struct samples_text){region_key, region};
+    samples->width = r.width;
+    samples->height = r.height;
+    samples_add_text(samples, "Software", "Monge " MONGE_VERSION);
+    samples_add_text(samples, "monge:scene", *layers->scene ? layers->scene : NULL);
+    samples_add_text(samples, "monge:region", is_part ? region : NULL);
     return samples_write(path, samples, message, size);
 }
 
@@ -93,26 +91,33 @@ static bool write_normals(const struct monge_layers *layers, const char *path, c
     return write_samples(layers, path, &samples, message, size);
 }
 
+static void fill_numbers(const struct monge_layers *layers, enum monge_layer layer, struct samples *samples) {
+    const size_t pixels = layers_pixels(layers);
+    for (size_t i = 0; i < pixels; i++)
+        for (unsigned c = 0; c < samples->channels; c++)
+            samples->values[samples->channels * i + c] = (uint16_t)(number_at(layers, layer, i) >> (16 * c));
+}
+
 static bool write_numbers(const struct monge_layers *layers, enum monge_layer layer, const char *path,
                           char *message, size_t size) {
-    const size_t pixels = layers_pixels(layers);
-    const bool has_table = layer != MONGE_LAYER_SHADOW,
-               has_camera = layer == MONGE_LAYER_OBJECT && layers->camera.entry.kind;
-    char key[] = "monge:table", *table = has_table ? layer_table_text(&layers->entries[layer]) : NULL;
-    char camera_key[] = "monge:camera", *camera = has_camera ? layer_camera_text(&layers->camera) : NULL;
-    char depth_key[] = "monge:depth", depth[HASH_TEXT_SIZE];
+    const bool has_table = layer != MONGE_LAYER_SHADOW, is_object = layer == MONGE_LAYER_OBJECT;
+    const bool has_camera = is_object && layers->camera.entry.kind;
+    char *table = has_table ? layer_table_text(&layers->entries[layer]) : NULL;
+    char *camera = has_camera ? layer_camera_text(&layers->camera) : NULL;
+    char depth[HASH_TEXT_SIZE];
+    const bool has_depth = is_object && monge_layer_hash(layers, MONGE_LAYER_DEPTH, depth);
     struct samples samples = {.channels = bits_of(layers, layer) > 16 ? 3 : 1};
-    samples.values = malloc(pixels * samples.channels * sizeof *samples.values);
+    samples.values = malloc(layers_pixels(layers) * samples.channels * sizeof *samples.values);
     bool good = samples.values && (table || !has_table) && (camera || !has_camera);
-    if (!good) snprintf(message, size, "cannot write %s: out of memory", path);
-    for (size_t i = 0; good && i < pixels; i++)
-        for (unsigned c = 0; c < samples.channels; c++)
-            samples.values[samples.channels * i + c] = (uint16_t)(number_at(layers, layer, i) >> (16 * c));
-    if (has_table) samples.texts[samples.text_count++] = (struct samples_text){key, table};
-    if (has_camera) samples.texts[samples.text_count++] = (struct samples_text){camera_key, camera};
-    if (layer == MONGE_LAYER_OBJECT && monge_layer_hash(layers, MONGE_LAYER_DEPTH, depth))
-        samples.texts[samples.text_count++] = (struct samples_text){depth_key, depth};
-    good = good && write_samples(layers, path, &samples, message, size);
+    if (good) {
+        fill_numbers(layers, layer, &samples);
+        samples_add_text(&samples, "monge:table", table);
+        samples_add_text(&samples, "monge:camera", camera);
+        samples_add_text(&samples, "monge:depth", has_depth ? depth : NULL);
+        good = write_samples(layers, path, &samples, message, size);
+    } else {
+        snprintf(message, size, "cannot write %s: out of memory", path);
+    }
     free(samples.values);
     free(camera);
     free(table);

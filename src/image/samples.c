@@ -1,5 +1,6 @@
 #include "image/samples.h"
 
+#include <assert.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -7,14 +8,20 @@
 
 enum { SHORT_TEXT = 200 /* bytes; compressing fewer gains nothing */ };
 
+void samples_add_text(struct samples *samples, const char *key, const char *text) {
+    if (!text) return;
+    assert(samples->text_count < SAMPLES_TEXTS);
+    samples->texts[samples->text_count++] = (struct samples_text){key, text};
+}
+
 static void set_texts(struct png_file *file, const struct samples *samples) {
     for (unsigned i = 0; i < samples->text_count; i++) {
         const struct samples_text *from = &samples->texts[i];
         const bool is_short = strlen(from->text) < SHORT_TEXT;
         const png_text text = {.compression =
                                    is_short ? PNG_ITXT_COMPRESSION_NONE : PNG_ITXT_COMPRESSION_zTXt,
-                               .key = from->key,
-                               .text = from->text};
+                               .key = (char *)from->key, /* libpng does not write there */
+                               .text = (char *)from->text};
         png_set_text(file->png, file->info, &text, 1);
     }
 }

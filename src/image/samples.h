@@ -13,10 +13,13 @@ struct samples {
     unsigned channels; /* 1 or 3 */
     uint16_t *values;  /* row by row from the top left */
     struct samples_text {
-        char *key, *text; /* a keyword of PNG, and UTF-8; long ones are compressed */
+        const char *key, *text; /* a keyword of PNG, and UTF-8; long ones are compressed */
     } texts[SAMPLES_TEXTS];
     unsigned text_count;
 };
+
+/* One more text, which stays the caller's; NULL is none. */
+void samples_add_text(struct samples *samples, const char *key, const char *text);
 
 /* Writes the file, complete or not at all, as png_write_film. False: the reason is in `message`. */
 bool samples_write(const char *path, const struct samples *samples, char *message, size_t size);
