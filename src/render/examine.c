@@ -306,6 +306,26 @@ static void examine_hidden(const struct examination *e, const struct solids *aro
 
 /* ---- Without effect: lights ---- */
 
+/* Whether a material that is used gives it back. */
+static bool is_given_back(const struct scene *scene, const struct light *ambient) {
+    for (uint32_t i = 0; i < scene->material_count; i++)
+        if (scene->material_info[i].given &&
+            vec3_max_abs(vec3_mul(scene->materials[i].ambient, ambient->color)) > 0.0)
+            return true;
+    return false;
+}
+
+/* Beside others: of ambient light alone everything is black, which has been told. */
+static void examine_ambient(const struct examination *e, uint32_t i) {
+    bool beside = false;
+    for (uint32_t k = 0; k < e->scene->light_count; k++) beside |= e->scene->lights[k].kind != LIGHT_AMBIENT;
+    if (!beside || is_given_back(e->scene, &e->scene->lights[i])) return;
+    diag_help(e->diag,
+              diag_warning(e->diag, e->scene->light_spans[i], "no-effect",
+                           "no material gives ambient light of this colour back"),
+              "give a material an `ambient` colour, or remove the light");
+}
+
 static void examine_light(const struct examination *e, uint32_t i, const struct solids *around_eye) {
     const struct light *light = &e->scene->lights[i];
     const struct span span = e->scene->light_spans[i];
@@ -315,6 +335,7 @@ static void examine_light(const struct examination *e, uint32_t i, const struct 
         return;
     }
     struct solids solids;
+    if (light->kind == LIGHT_AMBIENT) examine_ambient(e, i);
     if (light->kind != LIGHT_POINT || e->scene->settings.shadow > 0.0) return;
     solids_at(e, light->at, &solids);
     for (int k = 0; k < solids.count; k++) {
