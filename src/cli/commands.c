@@ -489,7 +489,10 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                     "2004) "
                     "and flip (what is seen when they alternate, from 0 to 1; Andersson et al. 2020, --ppd "
                     "pixels "
-                    "per degree; their order matters little). Where it names none of exact and max, "
+                    "per degree; their order matters little). For ssim and flip, which are of what is seen, "
+                    "pictures with alpha are looked at over black and over white, and the worse counts: of "
+                    "flip at each pixel; the others compare alpha as one more channel, and colours that it "
+                    "hides. Where it names none of exact and max, "
                     "--max-delta is a limit for what it names instead: mae, rmse, flip, 1 - ssim, the rmse "
                     "of "
                     "psnr. What is beyond is marked.",
