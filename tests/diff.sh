@@ -156,6 +156,11 @@ exits 2 diff grey.png dot.png --out - --json; err_has '--out -: standard output 
 cp dot.png kept.png
 exits 2 diff grey.png kept.png --out ./kept.png; err_has 'would write over a picture'
 ok "kept.png is as it was" cmp -s kept.png dot.png
+cp white.png kept-mask.png
+for option in --mask --ignore; do
+    exits 2 diff grey.png dot.png $option kept-mask.png --out ./kept-mask.png
+    err_has '--out ./kept-mask.png would write over the mask'; no_out; same kept-mask.png white.png
+done
 exits 2 diff grey.png dot.png --out /dev/full; err_has 'cannot write /dev/full: No space left on device'
 ok "no temporary files" [ -z "$(find . -name '*.tmp' -o -name '.*.tmp')" ]
 
@@ -202,10 +207,25 @@ exits 1 diff a b --out heats/deep; is_png heats/deep/light.png; is_png heats/dee
 ok "no others" [ "$(find heats -type f | wc -l)" -eq 2 ]
 "$monge" diff a/sub/dot.png b/sub/dot.png --out heat.png >out 2>err
 ok "the same heat map" cmp heat.png heats/deep/sub/dot.png
-for folder in a a/sub . b/heats; do
-    exits 2 diff a b --out $folder; err_has "--out $folder: heat maps cannot be among the pictures of "; no_out
+for folder in a a/sub b/heats; do
+    exits 2 diff a b --out $folder; no_out
+    err_has "--out $folder: the heat map $folder/grey.png would be among the pictures of ${folder%%/*}"
 done
 rm -rf b/heats
+# what is hidden is not found, and a folder above may hold heat maps, but where a name leads back
+exits 1 diff a b --out b/.heats; is_png b/.heats/sub/dot.png; exits 0 diff b b; rm -r b/.heats
+mkdir -p above/s above/t; cp grey.png above/s/x.png; cp dot.png above/t/x.png
+exits 1 diff above/s above/t --out above; is_png above/x.png; exits 1 diff above/s above/t; out_has '1 picture:'
+(cd above/s && "$monge" diff . ../t --out ..) >out 2>err; ok "from within" grep -q '1 picture: 1 different' out; no_err
+mkdir above/s/t above/t/t; cp grey.png above/s/t/y.png; cp dot.png above/t/t/y.png
+exits 2 diff above/s above/t --out above; err_has '--out above: the heat map above/t/y.png would be among the pictures of above/t'
+missing above/t/y.png
+rm above/x.png; cp dot.png above/x.png; ln -sf ../x.png above/t/x.png; rm -r above/s/t above/t/t
+exits 2 diff above/s above/t --out above; err_has '--out above: the heat map above/x.png would write over a picture that is compared'
+same above/x.png dot.png
+mkdir masks; cp white.png masks/x.png
+exits 2 diff one two --mask masks/x.png --out masks; err_has '--out masks: the heat map masks/x.png would write over the mask'
+same masks/x.png white.png
 exits 2 diff a b --out -; err_has '--out -: the heat maps of folders need a folder'
 exits 2 diff a b --out grey.png; err_has 'cannot make the folder grey.png: '
 

@@ -67,10 +67,15 @@ static bool passes(const struct diff *diff, const struct monge_difference *d) {
 
 /* ---- The comparison ---- */
 
-bool diff_same_file(const char *a, const char *b) {
+static bool same_file(const char *a, const char *b) {
     struct stat of_a, of_b;
     return stat(a, &of_a) == 0 && stat(b, &of_b) == 0 && of_a.st_dev == of_b.st_dev &&
            of_a.st_ino == of_b.st_ino;
+}
+
+const char *diff_overwritten(const struct diff *diff, const char *out, const char *a, const char *b) {
+    if (same_file(out, a) || same_file(out, b)) return "a picture that is compared";
+    return diff->mask_file && same_file(out, diff->mask_file) ? "the mask" : NULL;
 }
 
 static const char *shown(const char *path) { return strcmp(path, "-") == 0 ? "standard input" : path; }
