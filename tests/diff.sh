@@ -104,7 +104,7 @@ for other in dot.png again.png copy.png; do
 done
 render -o bright.png -D at=200
 exits 2 diff grey.png dot.png --mask bright.png; err_has "$nothing; a mask leaves out what is not black in it"; no_out
-exits 2 diff grey.png dot.png --ignore 0,0,40,30 --out none.png --json; err_has "$nothing"; no_out; missing none.png
+exits 2 diff grey.png dot.png --ignore 0,0,40,30 --out none.png --json; err_has "$nothing"; out_has '"why": "trouble"'; missing none.png
 exits 2 diff grey.png dot.png --ignore 0,0,40,30 --max-pixels 0 --max-delta 1; err_has "$nothing"
 exits 1 diff grey.png small.png --ignore 0,0,40,30; out_has 'different: their sizes'
 outside='error[outside-region]: --ignore 40,0,1,1 lies outside of grey.png, which is 40x30'
@@ -275,6 +275,14 @@ cp cut.png cut2.png
 : >none
 exits 2 diff grey.png absent.png; err_has 'cannot read absent.png: No such file'; no_out
 exits 2 diff grey.png cut.png; err_has 'cannot use cut.png: the file is cut off'
+exits 2 diff grey.png cut.png --json; err_has 'cannot use cut.png: the file is cut off'
+out_is '{
+  "same": false,
+  "why": "trouble",
+  "a": {"file": "grey.png"},
+  "b": {"file": "cut.png"}
+}'
+exits 2 diff - grey.png --json; out_has '"a": {"file": "-"}'; out_has '"why": "trouble"'
 exits 2 diff cut.png cut2.png; err_has 'cannot use cut.png'
 if command -v python3 >/dev/null; then # pixels that cannot be inflated, with the right check sum
     python3 -c '

@@ -80,13 +80,16 @@ static bool check_heat_map(const struct diff *diff, const char *a, const char *b
     return false;
 }
 
-static void tell_pair(const struct diff_pair *pair) {
+static void tell_pair(const struct diff_pair *pair, bool compared) {
     const struct option_value *option = pair->diff->args->option;
     const char *out = option[OPTION_HEAT_MAP].text;
     if (option[OPTION_DIFF_JSON].given) {
-        diff_pair_print_json(pair, NULL, stdout);
+        if (compared)
+            diff_pair_print_json(pair, NULL, stdout);
+        else
+            diff_print_json_none(NULL, "trouble", pair->path_a, pair->path_b, stdout);
         putchar('\n');
-    } else if (!option[OPTION_QUIET].given && !(out && is_stream(out))) {
+    } else if (compared && !option[OPTION_QUIET].given && !(out && is_stream(out))) {
         printf("%s: ", DIFF_VERDICT[pair->verdict]);
         diff_pair_print(pair, "", stdout);
     }
@@ -105,7 +108,7 @@ static enum status diff_files(const struct diff *diff, const char *a, const char
                               struct monge_diagnostics *diag) {
     struct diff_pair pair;
     bool good = diff_pair_compare(&pair, diff, a, b, diag);
-    if (good) tell_pair(&pair);
+    tell_pair(&pair, good);
     good = good && write_heat_map(&pair, diag);
     diff_pair_free(&pair);
     return !good ? STATUS_TROUBLE : pair.verdict == DIFF_DIFFERENT ? STATUS_NO : STATUS_YES;

@@ -122,23 +122,15 @@ static void print_name(const char *name, FILE *out) {
     for (; *name; name++) fputc((unsigned char)*name < 0x20 || *name == 0x7f ? '?' : *name, out);
 }
 
-static void print_side(const struct folders *folders, const struct entry *entry, enum side side, FILE *out) {
-    fprintf(out, ",\n  \"%c\": ", side == SIDE_A ? 'a' : 'b');
-    char *path = diff_path(folders->folder[side], entry->name);
-    fputs(entry->in[side] ? "{\"file\": " : "null", out);
-    if (entry->in[side]) monge_write_json_string(path, out), fputs("}", out);
-    free(path);
-}
-
 /* Of a name without two pictures to compare. */
 static void tell_none(const struct folders *folders, const struct entry *entry, FILE *out) {
     const bool missing = entry->outcome != TROUBLE;
     if (folders->diff->args->option[OPTION_DIFF_JSON].given) {
-        fputs("{\n  \"name\": ", out);
-        monge_write_json_string(entry->name, out);
-        fprintf(out, ",\n  \"same\": false,\n  \"why\": \"%s\"", missing ? "missing" : "trouble");
-        for (enum side side = SIDE_A; side < SIDES; side++) print_side(folders, entry, side, out);
-        fputs("\n}", out);
+        char *path[SIDES] = {NULL};
+        for (enum side side = SIDE_A; side < SIDES; side++)
+            if (entry->in[side]) path[side] = diff_path(folders->folder[side], entry->name);
+        diff_print_json_none(entry->name, missing ? "missing" : "trouble", path[SIDE_A], path[SIDE_B], out);
+        for (enum side side = SIDE_A; side < SIDES; side++) free(path[side]);
     } else if (missing) {
         fputs("only in ", out);
         print_name(folders->folder[entry->outcome == ONLY_IN_A ? SIDE_A : SIDE_B], out);

@@ -177,21 +177,40 @@ static void print_side(const char *key, const char *path, const struct monge_pic
 
 static const char *find_reason(const struct monge_difference *d) {
     static const char *const reasons[] = {
-        [MONGE_UNLIKE_NOTHING] = "\"pixels\"",
-        [MONGE_UNLIKE_SIZE] = "\"size\"",
-        [MONGE_UNLIKE_COLOR_SPACE] = "\"color space\"",
-        [MONGE_UNLIKE_BITS] = "\"bits\"",
+        [MONGE_UNLIKE_NOTHING] = "pixels",
+        [MONGE_UNLIKE_SIZE] = "size",
+        [MONGE_UNLIKE_COLOR_SPACE] = "color space",
+        [MONGE_UNLIKE_BITS] = "bits",
     };
-    return d->same ? "null" : reasons[d->unlike];
+    return d->same ? NULL : reasons[d->unlike];
+}
+
+/* The beginning of an object. why NULL: they are the same in every respect. */
+static void print_verdict(const char *name, bool same, const char *why, FILE *out) {
+    fputs("{\n", out);
+    if (name) fputs("  \"name\": ", out), monge_write_json_string(name, out), fputs(",\n", out);
+    fprintf(out, "  \"same\": %s,\n  \"why\": ", same ? "true" : "false");
+    why ? monge_write_json_string(why, out) : (void)fputs("null", out);
+}
+
+static void print_file(const char *key, const char *path, FILE *out) {
+    fprintf(out, ",\n  \"%s\": %s", key, path ? "{\"file\": " : "null");
+    if (path) monge_write_json_string(path, out), fputc('}', out);
+}
+
+void diff_print_json_none(const char *name, const char *why, const char *path_a, const char *path_b,
+                          FILE *out) {
+    print_verdict(name, false, why, out);
+    print_file("a", path_a, out);
+    print_file("b", path_b, out);
+    fputs("\n}", out);
 }
 
 void diff_pair_print_json(const struct diff_pair *pair, const char *name, FILE *out) {
     const struct monge_difference *d = &pair->difference;
     const struct monge_region *r = &d->bounds;
-    fputs("{\n", out);
-    if (name) fputs("  \"name\": ", out), monge_write_json_string(name, out), fputs(",\n", out);
-    fprintf(out, "  \"same\": %s,\n  \"why\": %s,\n", pair->verdict == DIFF_DIFFERENT ? "false" : "true",
-            find_reason(d));
+    print_verdict(name, pair->verdict != DIFF_DIFFERENT, find_reason(d), out);
+    fputs(",\n", out);
     print_side("a", pair->path_a, pair->a, out);
     print_side("b", pair->path_b, pair->b, out);
     fprintf(out, "  \"pixels\": %" PRIu64 ",\n  \"different\": %" PRIu64 ",\n  \"beyond\": %" PRIu64 ",\n",

@@ -44,6 +44,11 @@ void diff_pair_print(const struct diff_pair *pair, const char *before, FILE *out
 /* As a JSON object, with the name where there is one (NULL: none). */
 void diff_pair_print_json(const struct diff_pair *pair, const char *name, FILE *out);
 
+/* The same where nothing could be compared, for the reason "missing" or "trouble": of the files alone. NULL: there is
+ * none. */
+void diff_print_json_none(const char *name, const char *why, const char *path_a, const char *path_b,
+                          FILE *out);
+
 /* False: diag says why. */
 bool diff_pair_write_heat_map(const struct diff_pair *pair, const char *path, struct monge_diagnostics *diag);
 
