@@ -42,7 +42,9 @@ exits 0 diff --quiet grey.png again.png; no_out; no_err
 # ---- Tolerances ----
 
 exits 0 diff grey.png lighter.png --max-delta 0.0118; out_has 'within the limits: 1200 of 1200 pixels'
-exits 1 diff grey.png lighter.png --max-delta 0.0117; out_has 'different: '
+exits 1 diff grey.png lighter.png --max-delta 0.0117
+out_is 'different: 1200 of 1200 pixels (100 %), largest difference 0.01176 at 0,0; 1200 beyond --max-delta'
+exits 1 diff grey.png lighter.png --max-pixels 3; out_lacks 'beyond'
 exits 0 diff grey.png dot.png --max-pixels 4; out_has 'within the limits: 4 of 1200'
 exits 1 diff grey.png dot.png --max-pixels 3
 exits 0 diff grey.png dot.png --max-pixels 0.34%
@@ -55,6 +57,25 @@ exits 1 diff lighter.png dot.png --max-delta 0.01 --max-pixels 4
 exits 1 diff grey.png small.png --max-delta 1 --max-pixels 100%
 exits 1 diff grey.png linear.png --max-delta 1 --max-pixels 100%
 exits 0 diff grey.png deep.png --max-delta 0.002
+
+# ---- What is not quite all is not told as all ----
+
+if command -v python3 >/dev/null; then # all but a pixel, all, and numbers of 16 bits that are nearly 0 and 1
+    python3 -c '
+import struct, zlib
+def chunk(kind, data): return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+def write(name, width, height, bits, rows):
+    open(name, "wb").write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, bits, 0, 0, 0, 0))
+                           + chunk(b"IDAT", zlib.compress(b"".join(b"\0" + r for r in rows))) + chunk(b"IEND", b""))
+write("zeros.png", 160, 120, 8, [bytes(160)] * 120)
+write("nearly.png", 160, 120, 8, [b"\0" + b"\xff" * 159] + [b"\xff" * 160] * 119)
+write("ones.png", 160, 120, 8, [b"\xff" * 160] * 120)
+write("least.png", 1, 1, 16, [b"\0\0"])
+write("most.png", 1, 1, 16, [b"\xff\xfe"])'
+    exits 1 diff zeros.png nearly.png --metric exact; out_has '19199 of 19200 pixels (99.99 %)'; out_has 'exact  0.999948'
+    exits 1 diff zeros.png ones.png --metric exact; out_has '(100 %), largest difference 1 at 0,0'; ok "all" grep -qx 'exact  1' out
+    exits 1 diff least.png most.png --metric max; out_has 'largest difference 0.99998 at'; out_has 'max    0.999985'
+fi
 
 # ---- Metrics ----
 
@@ -71,7 +92,9 @@ ok "which of them is beyond" [ "$(grep -c beyond out)" -eq 2 ]; out_has 'mae    
 ok "the rmse is" grep -qx 'rmse   0.0[0-9]*  beyond --max-delta' out; ok "flip is" grep -qx 'flip   0.[0-9]*  beyond --max-delta' out
 exits 1 diff grey.png dot.png --metric mae --max-delta 0.1 --max-pixels 3; out_has '; more than --max-pixels'; out_lacks 'beyond'
 exits 0 diff grey.png dot.png --metric mae --max-delta 0.1 --max-pixels 4; out_lacks 'more than'
-exits 1 diff grey.png dot.png --metric max,flip --max-delta 0.1; out_lacks 'beyond'
+exits 1 diff grey.png dot.png --metric max,flip --max-delta 0.1; out_has '; 4 beyond --max-delta'
+ok "the largest difference" grep -qx 'max    0.2  beyond --max-delta' out; ok "flip has no limit" grep -qx 'flip   0[0-9.]*' out
+exits 0 diff grey.png dot.png --metric max,flip --max-delta 0.2; out_has '; 0 beyond --max-delta'; ok "max is not" grep -qx 'max    0.2' out
 exits 1 diff grey.png dot.png --metric mae --max-delta 0.1 --max-pixels 3
 exits 0 diff grey.png dot.png --metric mae --max-delta 0.1 --max-pixels 4
 exits 1 diff grey.png dot.png --metric flip --max-delta 0.001

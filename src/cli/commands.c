@@ -495,7 +495,7 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                     "hides. Where it names none of exact and max, "
                     "--max-delta is a limit for what it names instead: mae, rmse, flip, 1 - ssim, the rmse "
                     "of "
-                    "psnr. What is beyond is marked.",
+                    "psnr; else it is the limit of channels alone. What is beyond is marked.",
                     "--ignore leaves out a rectangle, or what is neither black nor transparent in a PNG of "
                     "the "
                     "same size. A rectangle may reach over the edge, but not lie outside; to leave out all "
@@ -521,9 +521,9 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                     "cannot be compared; psnr, which is then infinite, also where all are the same. Of "
                     "folders "
                     "it "
-                    "is a list of such objects, each with its name before; one that cannot be compared has "
-                    "name, "
-                    "same, why (missing or trouble), a and b (file; null where there is none) alone."},
+                    "is a list of such objects, each with its name before. Where nothing could be compared, "
+                    "same, why (trouble, or in folders missing), a and b (file; null where there is none) "
+                    "are all."},
             .examples = {{"monge diff golden.png new.png", "exit status 0 where they are the same"},
                          {"monge diff before/ after/ --out heat/", "all of two folders, with heat maps"},
                          {"monge diff a.png b.png --max-delta 0.01 --max-pixels 0.1%",

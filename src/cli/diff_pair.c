@@ -2,6 +2,7 @@
 
 #include <inttypes.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
@@ -123,6 +124,14 @@ bool diff_pair_write_heat_map(const struct diff_pair *pair, const char *path,
 
 /* ---- For people ---- */
 
+/* With so many digits, or as many more as it takes that what is less than `most` is not shown as that. */
+static void print_below(double value, int digits, double most, FILE *out) {
+    char text[32];
+    do snprintf(text, sizeof text, "%.*g", digits, value);
+    while (value < most && strtod(text, NULL) >= most && digits++ < 17);
+    fputs(text, out);
+}
+
 static void print_unlike(const struct diff_pair *pair, FILE *out) {
     const struct monge_picture *a = pair->a, *b = pair->b;
     const struct monge_difference *d = &pair->difference;
@@ -142,25 +151,40 @@ static void print_pixels(const struct diff_pair *pair, FILE *out) {
         fprintf(out, "all of %" PRIu64 " pixels are equal", d->pixels);
         return;
     }
-    fprintf(out, "%" PRIu64 " of %" PRIu64 " pixels (%.3g %%), largest difference %.4g at %u,%u",
-            d->different, d->pixels, 100.0 * measure(d, MONGE_METRIC_EXACT), d->max, d->max_x, d->max_y);
-    if (d->beyond < d->different) fprintf(out, "; %" PRIu64 " beyond --max-delta", d->beyond);
-    if (pair->diff->args->option[OPTION_MAX_PIXELS].given && !pixels_pass(pair->diff, d))
+    const struct option_value *option = pair->diff->args->option;
+    fprintf(out, "%" PRIu64 " of %" PRIu64 " pixels (", d->different, d->pixels);
+    print_below(100.0 * measure(d, MONGE_METRIC_EXACT), 3, 100.0, out);
+    fputs(" %), largest difference ", out);
+    print_below(d->max, 4, 1.0, out);
+    fprintf(out, " at %u,%u", d->max_x, d->max_y);
+    if (option[OPTION_MAX_DELTA].given && !diff_limits_means(pair->diff))
+        fprintf(out, "; %" PRIu64 " beyond --max-delta", d->beyond);
+    if (option[OPTION_MAX_PIXELS].given && !pixels_pass(pair->diff, d))
         fputs("; more than --max-pixels", out);
+}
+
+/* Of what --max-delta is a limit for: of channels that is the largest difference. */
+static bool is_beyond(const struct diff_pair *pair, enum monge_metric metric) {
+    if (!pair->diff->args->option[OPTION_MAX_DELTA].given) return false;
+    if (diff_limits_means(pair->diff)) return !mean_passes(pair->diff, &pair->difference, metric);
+    return metric == MONGE_METRIC_MAX && pair->difference.beyond > 0;
+}
+
+static void print_metric(const struct diff_pair *pair, enum monge_metric metric, const char *before,
+                         FILE *out) {
+    fprintf(out, "%s%-5s  ", before, names[metric]);
+    print_below(measure(&pair->difference, metric), 6, 1.0, out);
+    fputs(is_beyond(pair, metric) ? "  beyond --max-delta\n" : "\n", out);
 }
 
 void diff_pair_print(const struct diff_pair *pair, const char *before, FILE *out) {
     const struct monge_difference *d = &pair->difference;
-    const struct option_value *option = pair->diff->args->option;
-    const unsigned metrics = option[OPTION_METRIC].given ? pair->diff->metrics : 0;
-    const bool limited = option[OPTION_MAX_DELTA].given && diff_limits_means(pair->diff);
+    const unsigned metrics = pair->diff->args->option[OPTION_METRIC].given ? pair->diff->metrics : 0;
     if (d->unlike != MONGE_UNLIKE_NOTHING) print_unlike(pair, out);
     if (!isnan(d->max)) print_pixels(pair, out);
     fputc('\n', out);
     for (enum monge_metric m = 0; m < MONGE_METRICS; m++)
-        if (metrics & METRIC_BIT(m) && !isnan(measure(d, m)))
-            fprintf(out, "%s%-5s  %.6g%s\n", before, names[m], measure(d, m),
-                    limited && !mean_passes(pair->diff, d, m) ? "  beyond --max-delta" : "");
+        if (metrics & METRIC_BIT(m) && !isnan(measure(d, m))) print_metric(pair, m, before, out);
 }
 
 /* ---- For programs ---- */
