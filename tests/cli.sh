@@ -198,7 +198,6 @@ exits 2 render one.yaml --samples x; err_has '--samples: expected a whole number
 for bad in 0 65537 -1 +1 1.5 '' ' 1' 0x10 18446744073709551617; do
     exits 2 render one.yaml --samples "$bad"; err_has "found \`$bad\`"
 done
-exits 2 render one.yaml --aov object,objct,depth; err_has 'with commas between, found `objct`; did you mean `object`?'
 for bad in 0x4 4x0 4 4x x4 4x4x4 4X4 65536x1 -4x4; do
     exits 2 render one.yaml --size "$bad"; err_has "--size: expected WxH"
 done
@@ -349,6 +348,7 @@ exits 0 render one.yaml "${small[@]}" -q --aov depth -o passes/UPPER.PNG; ok "PN
 for bad in beauty depth, ,depth '' object,,depth Depth; do
     exits 2 render one.yaml --aov "$bad"; err_has "--aov: expected some of object, material, depth, normal and shadow"; err_has "found \`$bad\`"
 done
+exits 2 render one.yaml --aov object,objct,depth; err_has 'with commas between, found `objct`; did you mean `object`?'
 exits 2 render one.yaml --aov depth -o -; err_has '--aov: passes are files beside the picture; give -o FILE'; no_out
 exits 2 render - --aov depth; err_has 'give -o FILE'
 [ -e null ] && exits 2 render one.yaml --aov depth -o null && err_has 'which null is not'

@@ -61,12 +61,20 @@ exits 0 diff grey.png deep.png --max-delta 0.002
 # ---- What is not quite all is not told as all ----
 
 if command -v python3 >/dev/null; then # all but a pixel, all, and numbers of 16 bits that are nearly 0 and 1
-    python3 -c '
+    cat >pictures.py <<'END'
 import struct, zlib
-def chunk(kind, data): return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
-def write(name, width, height, bits, rows):
-    open(name, "wb").write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, bits, 0, 0, 0, 0))
-                           + chunk(b"IDAT", zlib.compress(b"".join(b"\0" + r for r in rows))) + chunk(b"IEND", b""))
+
+def chunk(kind, data):
+    return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+def write(name, width, height, bits, rows, *chunks):
+    open(name, "wb").write(
+        b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, bits, 0, 0, 0, 0))
+        + b"".join(chunk(*c) for c in chunks)
+        + chunk(b"IDAT", zlib.compress(b"".join(b"\0" + r for r in rows))) + chunk(b"IEND", b""))
+END
+    python3 -c '
+from pictures import *
 write("zeros.png", 160, 120, 8, [bytes(160)] * 120)
 write("nearly.png", 160, 120, 8, [b"\0" + b"\xff" * 159] + [b"\xff" * 160] * 119)
 write("ones.png", 160, 120, 8, [b"\xff" * 160] * 120)
@@ -75,6 +83,42 @@ write("most.png", 1, 1, 16, [b"\xff\xfe"])'
     exits 1 diff zeros.png nearly.png --metric exact; out_has '19199 of 19200 pixels (99.99 %)'; out_has 'exact  0.999948'
     exits 1 diff zeros.png ones.png --metric exact; out_has '(100 %), largest difference 1 at 0,0'; ok "all" grep -qx 'exact  1' out
     exits 1 diff least.png most.png --metric max; out_has 'largest difference 0.99998 at'; out_has 'max    0.999985'
+fi
+
+# ---- What other programs write of colour spaces ----
+
+if command -v python3 >/dev/null; then
+    python3 -c '
+from pictures import *
+def gama(g): return b"gAMA", struct.pack(">I", g)
+def chrm(*v): return b"cHRM", struct.pack(">8I", *v)
+def profile(name, intent): # the least that libpng takes for one, filled up with what cannot be packed
+    noise = bytes(x * x * x % 251 for x in range(200))
+    p = bytearray(128)
+    p[0:4], p[8] = struct.pack(">I", 144 + 12 + len(noise)), 2
+    p[12:24], p[36:40], p[64:80] = b"mntrGRAYXYZ ", b"acsp", struct.pack(">IIII", intent, 0xf6d6, 0x10000, 0xd32d)
+    tag = struct.pack(">I4sII", 1, b"cprt", 144, 12) + b"text\0\0\0\0abc\0"
+    return b"iCCP", name + b"\0\0" + zlib.compress(bytes(p) + tag + noise)
+srgb, cicp = (b"sRGB", b"\0"), (b"cICP", bytes([9, 16, 0, 1]))
+usual = chrm(31270, 32900, 64000, 33000, 30000, 60000, 15000, 6000)
+adobe = chrm(31270, 32900, 64000, 33000, 21000, 71000, 15000, 6000)
+for name, *chunks in (("unsaid",), ("srgb", srgb), ("gama", gama(45455)), ("gama-chrm", gama(45455), usual), ("chrm", adobe),
+                      ("srgb-gama", srgb, gama(100000)), ("cicp", cicp), ("adobe", gama(45455), adobe), ("gama-2", gama(50000)),
+                      ("icc", profile(b"ICC Profile", 0)), ("p3", profile(b"P3", 0)), ("p3-too", profile(b"P3", 0)),
+                      ("p3-other", profile(b"P3", 1)), ("srgb-icc", profile(b"P3", 0), srgb)):
+    write(name + ".png", 3, 2, 8, [b"\1\2\3", b"\4\5\6"], *chunks)
+write("wide.png", 1000001, 1, 8, [bytes(1000001)])
+write("wider.png", 1000001, 1, 8, [b"\1" * 1000001])
+write("huge.png", 60000, 60000, 8, [b"\0" * 100])'
+    for name in srgb gama gama-chrm chrm srgb-gama cicp; do exits 0 diff unsaid.png $name.png; out_is 'same: all of 6 pixels are equal'; done
+    exits 1 diff unsaid.png adobe.png; out_is 'different: their colour spaces are sRGB and gamma 0.45455'
+    exits 1 diff adobe.png gama-2.png; out_is 'different: their colour spaces are gamma 0.45455 and gamma 0.5'
+    exits 1 diff unsaid.png icc.png; out_is 'different: their colour spaces are sRGB and ICC Profile'
+    exits 1 diff srgb.png srgb-icc.png; out_is 'different: their colour spaces are sRGB and ICC profile P3'
+    exits 0 diff icc.png p3.png; exits 0 diff p3.png p3-too.png; exits 0 diff p3.png srgb-icc.png
+    exits 1 diff p3.png p3-other.png; out_is 'different: their colour spaces are not the same, though both are called ICC profile P3'
+    exits 1 diff wide.png wider.png --out heat.png; out_has '1000001 of 1000001 pixels'; is_png heat.png
+    exits 2 diff wide.png huge.png; err_has 'cannot use huge.png: it is too large: 60000 x 60000 pixels, of at most 268435456 together'
 fi
 
 # ---- Metrics ----

@@ -138,6 +138,10 @@ static void print_unlike(const struct diff_pair *pair, FILE *out) {
     if (d->unlike == MONGE_UNLIKE_SIZE)
         fprintf(out, "their sizes are %u x %u and %u x %u pixels", monge_picture_width(a),
                 monge_picture_height(a), monge_picture_width(b), monge_picture_height(b));
+    else if (d->unlike == MONGE_UNLIKE_COLOR_SPACE &&
+             strcmp(monge_picture_color_space(a), monge_picture_color_space(b)) == 0)
+        fprintf(out, "their colour spaces are not the same, though both are called %s",
+                monge_picture_color_space(a));
     else if (d->unlike == MONGE_UNLIKE_COLOR_SPACE)
         fprintf(out, "their colour spaces are %s and %s", monge_picture_color_space(a),
                 monge_picture_color_space(b));
