@@ -475,7 +475,8 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                     "there are such. --out is then a folder, where each that is not the same gets its heat "
                     "map "
                     "under "
-                    "its name. A picture and a folder: the picture of that name in the folder.",
+                    "its name; it may be no place where these would be among the pictures. A picture and a "
+                    "folder: the picture of that name in the folder.",
                     "With --max-delta pixels differ where a channel does by more than that, on a scale from "
                     "0 "
                     "to 1; "
