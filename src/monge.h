@@ -444,6 +444,9 @@ enum monge_metric {
     MONGE_METRICS
 };
 
+/* SSIM and FLIP are of what is seen: pictures with alpha are looked at over black and over white. FLIP's error of a pixel
+ * is then the larger one, SSIM the smaller one. The others compare alpha as a channel, and colours that it hides. */
+
 /* How to compare. Zeroed: exactly, with the first four metrics and PSNR, which cost nothing. */
 struct monge_compare {
     unsigned metrics;                  /* 1 << MONGE_METRIC_SSIM, 1 << MONGE_METRIC_FLIP: those as well */

@@ -345,9 +345,10 @@ exits 0 render grow.yaml "${small[@]}" -q --frames all --aov object -o passes/
 for frame in 0001 0002 0003; do is_png passes/grow-$frame.png; is_png passes/grow-$frame.object.png; done
 exits 0 render one.yaml "${small[@]}" -q --aov depth -o passes/UPPER.PNG; ok "PNG is no part of the name" [ -s passes/UPPER.depth.pfm ]
 
-for bad in beauty object,objct depth, ,depth '' object,,depth Depth; do
+for bad in beauty depth, ,depth '' object,,depth Depth; do
     exits 2 render one.yaml --aov "$bad"; err_has "--aov: expected some of object, material, depth, normal and shadow"; err_has "found \`$bad\`"
 done
+exits 2 render one.yaml --aov object,objct,depth; err_has 'with commas between, found `objct`; did you mean `object`?'
 exits 2 render one.yaml --aov depth -o -; err_has '--aov: passes are files beside the picture; give -o FILE'; no_out
 exits 2 render - --aov depth; err_has 'give -o FILE'
 [ -e null ] && exits 2 render one.yaml --aov depth -o null && err_has 'which null is not'

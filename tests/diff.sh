@@ -42,7 +42,9 @@ exits 0 diff --quiet grey.png again.png; no_out; no_err
 # ---- Tolerances ----
 
 exits 0 diff grey.png lighter.png --max-delta 0.0118; out_has 'within the limits: 1200 of 1200 pixels'
-exits 1 diff grey.png lighter.png --max-delta 0.0117; out_has 'different: '
+exits 1 diff grey.png lighter.png --max-delta 0.0117
+out_is 'different: 1200 of 1200 pixels (100 %), largest difference 0.01176 at 0,0; 1200 beyond --max-delta'
+exits 1 diff grey.png lighter.png --max-pixels 3; out_lacks 'beyond'
 exits 0 diff grey.png dot.png --max-pixels 4; out_has 'within the limits: 4 of 1200'
 exits 1 diff grey.png dot.png --max-pixels 3
 exits 0 diff grey.png dot.png --max-pixels 0.34%
@@ -55,6 +57,69 @@ exits 1 diff lighter.png dot.png --max-delta 0.01 --max-pixels 4
 exits 1 diff grey.png small.png --max-delta 1 --max-pixels 100%
 exits 1 diff grey.png linear.png --max-delta 1 --max-pixels 100%
 exits 0 diff grey.png deep.png --max-delta 0.002
+
+# ---- What is not quite all is not told as all ----
+
+if command -v python3 >/dev/null; then # all but a pixel, all, and numbers of 16 bits that are nearly 0 and 1
+    cat >pictures.py <<'END'
+import struct, zlib
+
+def chunk(kind, data):
+    return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+def write(name, width, height, bits, rows, *chunks):
+    open(name, "wb").write(
+        b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, bits, 0, 0, 0, 0))
+        + b"".join(chunk(*c) for c in chunks)
+        + chunk(b"IDAT", zlib.compress(b"".join(b"\0" + r for r in rows))) + chunk(b"IEND", b""))
+END
+    python3 -c '
+from pictures import *
+write("zeros.png", 160, 120, 8, [bytes(160)] * 120)
+write("nearly.png", 160, 120, 8, [b"\0" + b"\xff" * 159] + [b"\xff" * 160] * 119)
+write("ones.png", 160, 120, 8, [b"\xff" * 160] * 120)
+write("least.png", 1, 1, 16, [b"\0\0"])
+write("most.png", 1, 1, 16, [b"\xff\xfe"])'
+    exits 1 diff zeros.png nearly.png --metric exact; out_has '19199 of 19200 pixels (99.99 %)'; out_has 'exact  0.999948'
+    exits 1 diff zeros.png ones.png --metric exact; out_has '(100 %), largest difference 1 at 0,0'; ok "all" grep -qx 'exact  1' out
+    exits 1 diff least.png most.png --metric max; out_has 'largest difference 0.99998 at'; out_has 'max    0.999985'
+fi
+
+# ---- What other programs write of colour spaces ----
+
+if command -v python3 >/dev/null; then
+    python3 -c '
+from pictures import *
+def gama(g): return b"gAMA", struct.pack(">I", g)
+def chrm(*v): return b"cHRM", struct.pack(">8I", *v)
+def profile(name, intent): # the least that libpng takes for one, filled up with what cannot be packed
+    noise = bytes(x * x * x % 251 for x in range(200))
+    p = bytearray(128)
+    p[0:4], p[8] = struct.pack(">I", 144 + 12 + len(noise)), 2
+    p[12:24], p[36:40], p[64:80] = b"mntrGRAYXYZ ", b"acsp", struct.pack(">IIII", intent, 0xf6d6, 0x10000, 0xd32d)
+    tag = struct.pack(">I4sII", 1, b"cprt", 144, 12) + b"text\0\0\0\0abc\0"
+    return b"iCCP", name + b"\0\0" + zlib.compress(bytes(p) + tag + noise)
+srgb, cicp = (b"sRGB", b"\0"), (b"cICP", bytes([9, 16, 0, 1]))
+usual = chrm(31270, 32900, 64000, 33000, 30000, 60000, 15000, 6000)
+adobe = chrm(31270, 32900, 64000, 33000, 21000, 71000, 15000, 6000)
+for name, *chunks in (("unsaid",), ("srgb", srgb), ("gama", gama(45455)), ("gama-chrm", gama(45455), usual), ("chrm", adobe),
+                      ("srgb-gama", srgb, gama(100000)), ("cicp", cicp), ("adobe", gama(45455), adobe), ("gama-2", gama(50000)),
+                      ("icc", profile(b"ICC Profile", 0)), ("p3", profile(b"P3", 0)), ("p3-too", profile(b"P3", 0)),
+                      ("p3-other", profile(b"P3", 1)), ("srgb-icc", profile(b"P3", 0), srgb)):
+    write(name + ".png", 3, 2, 8, [b"\1\2\3", b"\4\5\6"], *chunks)
+write("wide.png", 1000001, 1, 8, [bytes(1000001)])
+write("wider.png", 1000001, 1, 8, [b"\1" * 1000001])
+write("huge.png", 60000, 60000, 8, [b"\0" * 100])'
+    for name in srgb gama gama-chrm chrm srgb-gama cicp; do exits 0 diff unsaid.png $name.png; out_is 'same: all of 6 pixels are equal'; done
+    exits 1 diff unsaid.png adobe.png; out_is 'different: their colour spaces are sRGB and gamma 0.45455'
+    exits 1 diff adobe.png gama-2.png; out_is 'different: their colour spaces are gamma 0.45455 and gamma 0.5'
+    exits 1 diff unsaid.png icc.png; out_is 'different: their colour spaces are sRGB and ICC Profile'
+    exits 1 diff srgb.png srgb-icc.png; out_is 'different: their colour spaces are sRGB and ICC profile P3'
+    exits 0 diff icc.png p3.png; exits 0 diff p3.png p3-too.png; exits 0 diff p3.png srgb-icc.png
+    exits 1 diff p3.png p3-other.png; out_is 'different: their colour spaces are not the same, though both are called ICC profile P3'
+    exits 1 diff wide.png wider.png --out heat.png; out_has '1000001 of 1000001 pixels'; is_png heat.png
+    exits 2 diff wide.png huge.png; err_has 'cannot use huge.png: it is too large: 60000 x 60000 pixels, of at most 268435456 together'
+fi
 
 # ---- Metrics ----
 
@@ -71,7 +136,9 @@ ok "which of them is beyond" [ "$(grep -c beyond out)" -eq 2 ]; out_has 'mae    
 ok "the rmse is" grep -qx 'rmse   0.0[0-9]*  beyond --max-delta' out; ok "flip is" grep -qx 'flip   0.[0-9]*  beyond --max-delta' out
 exits 1 diff grey.png dot.png --metric mae --max-delta 0.1 --max-pixels 3; out_has '; more than --max-pixels'; out_lacks 'beyond'
 exits 0 diff grey.png dot.png --metric mae --max-delta 0.1 --max-pixels 4; out_lacks 'more than'
-exits 1 diff grey.png dot.png --metric max,flip --max-delta 0.1; out_lacks 'beyond'
+exits 1 diff grey.png dot.png --metric max,flip --max-delta 0.1; out_has '; 4 beyond --max-delta'
+ok "the largest difference" grep -qx 'max    0.2  beyond --max-delta' out; ok "flip has no limit" grep -qx 'flip   0[0-9.]*' out
+exits 0 diff grey.png dot.png --metric max,flip --max-delta 0.2; out_has '; 0 beyond --max-delta'; ok "max is not" grep -qx 'max    0.2' out
 exits 1 diff grey.png dot.png --metric mae --max-delta 0.1 --max-pixels 3
 exits 0 diff grey.png dot.png --metric mae --max-delta 0.1 --max-pixels 4
 exits 1 diff grey.png dot.png --metric flip --max-delta 0.001
@@ -104,7 +171,7 @@ for other in dot.png again.png copy.png; do
 done
 render -o bright.png -D at=200
 exits 2 diff grey.png dot.png --mask bright.png; err_has "$nothing; a mask leaves out what is not black in it"; no_out
-exits 2 diff grey.png dot.png --ignore 0,0,40,30 --out none.png --json; err_has "$nothing"; no_out; missing none.png
+exits 2 diff grey.png dot.png --ignore 0,0,40,30 --out none.png --json; err_has "$nothing"; out_has '"why": "trouble"'; missing none.png
 exits 2 diff grey.png dot.png --ignore 0,0,40,30 --max-pixels 0 --max-delta 1; err_has "$nothing"
 exits 1 diff grey.png small.png --ignore 0,0,40,30; out_has 'different: their sizes'
 outside='error[outside-region]: --ignore 40,0,1,1 lies outside of grey.png, which is 40x30'
@@ -156,6 +223,11 @@ exits 2 diff grey.png dot.png --out - --json; err_has '--out -: standard output 
 cp dot.png kept.png
 exits 2 diff grey.png kept.png --out ./kept.png; err_has 'would write over a picture'
 ok "kept.png is as it was" cmp -s kept.png dot.png
+cp white.png kept-mask.png
+for option in --mask --ignore; do
+    exits 2 diff grey.png dot.png $option kept-mask.png --out ./kept-mask.png
+    err_has '--out ./kept-mask.png would write over the mask'; no_out; same kept-mask.png white.png
+done
 exits 2 diff grey.png dot.png --out /dev/full; err_has 'cannot write /dev/full: No space left on device'
 ok "no temporary files" [ -z "$(find . -name '*.tmp' -o -name '.*.tmp')" ]
 
@@ -202,10 +274,25 @@ exits 1 diff a b --out heats/deep; is_png heats/deep/light.png; is_png heats/dee
 ok "no others" [ "$(find heats -type f | wc -l)" -eq 2 ]
 "$monge" diff a/sub/dot.png b/sub/dot.png --out heat.png >out 2>err
 ok "the same heat map" cmp heat.png heats/deep/sub/dot.png
-for folder in a a/sub . b/heats; do
-    exits 2 diff a b --out $folder; err_has "--out $folder: heat maps cannot be among the pictures of "; no_out
+for folder in a a/sub b/heats; do
+    exits 2 diff a b --out $folder; no_out
+    err_has "--out $folder: the heat map $folder/grey.png would be among the pictures of ${folder%%/*}"
 done
 rm -rf b/heats
+# what is hidden is not found, and a folder above may hold heat maps, but where a name leads back
+exits 1 diff a b --out b/.heats; is_png b/.heats/sub/dot.png; exits 0 diff b b; rm -r b/.heats
+mkdir -p above/s above/t; cp grey.png above/s/x.png; cp dot.png above/t/x.png
+exits 1 diff above/s above/t --out above; is_png above/x.png; exits 1 diff above/s above/t; out_has '1 picture:'
+(cd above/s && "$monge" diff . ../t --out ..) >out 2>err; ok "from within" grep -q '1 picture: 1 different' out; no_err
+mkdir above/s/t above/t/t; cp grey.png above/s/t/y.png; cp dot.png above/t/t/y.png
+exits 2 diff above/s above/t --out above; err_has '--out above: the heat map above/t/y.png would be among the pictures of above/t'
+missing above/t/y.png
+rm above/x.png; cp dot.png above/x.png; ln -sf ../x.png above/t/x.png; rm -r above/s/t above/t/t
+exits 2 diff above/s above/t --out above; err_has '--out above: the heat map above/x.png would write over a picture that is compared'
+same above/x.png dot.png
+mkdir masks; cp white.png masks/x.png
+exits 2 diff one two --mask masks/x.png --out masks; err_has '--out masks: the heat map masks/x.png would write over the mask'
+same masks/x.png white.png
 exits 2 diff a b --out -; err_has '--out -: the heat maps of folders need a folder'
 exits 2 diff a b --out grey.png; err_has 'cannot make the folder grey.png: '
 
@@ -255,6 +342,14 @@ cp cut.png cut2.png
 : >none
 exits 2 diff grey.png absent.png; err_has 'cannot read absent.png: No such file'; no_out
 exits 2 diff grey.png cut.png; err_has 'cannot use cut.png: the file is cut off'
+exits 2 diff grey.png cut.png --json; err_has 'cannot use cut.png: the file is cut off'
+out_is '{
+  "same": false,
+  "why": "trouble",
+  "a": {"file": "grey.png"},
+  "b": {"file": "cut.png"}
+}'
+exits 2 diff - grey.png --json; out_has '"a": {"file": "-"}'; out_has '"why": "trouble"'
 exits 2 diff cut.png cut2.png; err_has 'cannot use cut.png'
 if command -v python3 >/dev/null; then # pixels that cannot be inflated, with the right check sum
     python3 -c '
@@ -279,7 +374,9 @@ exits 2 diff grey.png again.png dot.png; err_has 'found 3'
 exits 2 diff; err_has 'diff: no picture given'
 exits 2 diff grey.png ''; err_has 'monge: diff: an operand is empty'
 exits 2 diff - -; err_has 'standard input can be only one picture'
-exits 2 diff grey.png dot.png --metric blip; err_has '--metric: expected some of exact, max, mae, rmse, psnr, ssim and flip, with commas between, found `blip`'
+exits 2 diff grey.png dot.png --metric blip; err_has '--metric: expected some of exact, max, mae, rmse, psnr, ssim and flip, with commas between, found `blip`; did you mean `flip`?'
+exits 2 diff grey.png dot.png --metric ssim,maxx,mae; err_has 'with commas between, found `maxx`; did you mean `max`?'
+exits 2 diff grey.png dot.png --metric max,quality; err_has 'with commas between, found `quality`'; err_lacks 'did you mean'
 exits 2 diff grey.png dot.png --metric mae,,max; err_has '--metric: expected'
 exits 2 diff grey.png dot.png --metric mae,; err_has '--metric: expected'
 for wrong in nan -0.1 1.1 x ''; do

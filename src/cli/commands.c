@@ -454,8 +454,10 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                     "pixels. Text, compression, and whether there is a palette do not count; grey is equal "
                     "red, "
                     "green and blue, a picture without alpha is opaque, and one that names no colour space "
-                    "is "
-                    "sRGB. Any PNG will do. Prints a line about what differs; exit status 0 where they are "
+                    "is sRGB, as is one of gAMA 45455 without other primaries. ICC profiles, which stand "
+                    "before sRGB and gAMA, are the same where their bytes are; cICP is passed by. Any PNG "
+                    "of at most 268435456 pixels will do. Prints a line about what differs; exit status 0 "
+                    "where they are "
                     "the "
                     "same, 1 where they are not, 2 where one cannot be read or no pixel is left to compare. "
                     "Files with the same bytes are "
@@ -473,7 +475,8 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                     "there are such. --out is then a folder, where each that is not the same gets its heat "
                     "map "
                     "under "
-                    "its name. A picture and a folder: the picture of that name in the folder.",
+                    "its name; it may be no place where these would be among the pictures. A picture and a "
+                    "folder: the picture of that name in the folder.",
                     "With --max-delta pixels differ where a channel does by more than that, on a scale from "
                     "0 "
                     "to 1; "
@@ -489,10 +492,13 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                     "2004) "
                     "and flip (what is seen when they alternate, from 0 to 1; Andersson et al. 2020, --ppd "
                     "pixels "
-                    "per degree; their order matters little). Where it names none of exact and max, "
+                    "per degree; their order matters little). For ssim and flip, which are of what is seen, "
+                    "pictures with alpha are looked at over black and over white, and the worse counts: of "
+                    "flip at each pixel; the others compare alpha as one more channel, and colours that it "
+                    "hides. Where it names none of exact and max, "
                     "--max-delta is a limit for what it names instead: mae, rmse, flip, 1 - ssim, the rmse "
                     "of "
-                    "psnr. What is beyond is marked.",
+                    "psnr; else it is the limit of channels alone. What is beyond is marked.",
                     "--ignore leaves out a rectangle, or what is neither black nor transparent in a PNG of "
                     "the "
                     "same size. A rectangle may reach over the edge, but not lie outside; to leave out all "
@@ -518,9 +524,9 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                     "cannot be compared; psnr, which is then infinite, also where all are the same. Of "
                     "folders "
                     "it "
-                    "is a list of such objects, each with its name before; one that cannot be compared has "
-                    "name, "
-                    "same, why (missing or trouble), a and b (file; null where there is none) alone."},
+                    "is a list of such objects, each with its name before. Where nothing could be compared, "
+                    "same, why (trouble, or in folders missing), a and b (file; null where there is none) "
+                    "are all."},
             .examples = {{"monge diff golden.png new.png", "exit status 0 where they are the same"},
                          {"monge diff before/ after/ --out heat/", "all of two folders, with heat maps"},
                          {"monge diff a.png b.png --max-delta 0.01 --max-pixels 0.1%",

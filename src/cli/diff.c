@@ -47,6 +47,7 @@ static bool diff_begin(struct diff *diff, const struct arguments *args, struct m
     if (!diff->metrics) diff->metrics = 1u << MONGE_METRIC_EXACT | 1u << MONGE_METRIC_MAX;
     diff->ignore = calloc(args->pair_count + 1, sizeof *diff->ignore);
     if (!diff->ignore) say_error("out of memory");
+    diff->mask_file = mask;
     if (mask) diff->mask = monge_picture_read(mask, diag);
     const double delta = diff_limits_means(diff) ? 0.0 : args->option[OPTION_MAX_DELTA].fraction;
     diff->how = (struct monge_compare){.metrics = diff->metrics,
@@ -65,25 +66,30 @@ static bool diff_begin(struct diff *diff, const struct arguments *args, struct m
 
 /* ---- Two pictures ---- */
 
-static bool check_heat_map(const struct arguments *args, const char *a, const char *b) {
+static bool check_heat_map(const struct diff *diff, const char *a, const char *b) {
+    const struct arguments *args = diff->args;
     const char *out = args->option[OPTION_HEAT_MAP].text;
     if (!out) return true;
+    const char *lost = is_stream(out) ? NULL : diff_overwritten(diff, out, a, b);
     if (is_stream(out) && args->option[OPTION_DIFF_JSON].given)
         say_usage(COMMAND_DIFF, "--out -: standard output takes the JSON object");
-    else if (!is_stream(out) && (diff_same_file(out, a) || diff_same_file(out, b)))
-        say_usage(COMMAND_DIFF, "--out %s would write over a picture that is compared", out);
+    else if (lost)
+        say_usage(COMMAND_DIFF, "--out %s would write over %s", out, lost);
     else
         return is_stream(out) || path_check_picture(COMMAND_DIFF, "--out", out);
     return false;
 }
 
-static void tell_pair(const struct diff_pair *pair) {
+static void tell_pair(const struct diff_pair *pair, bool compared) {
     const struct option_value *option = pair->diff->args->option;
     const char *out = option[OPTION_HEAT_MAP].text;
     if (option[OPTION_DIFF_JSON].given) {
-        diff_pair_print_json(pair, NULL, stdout);
+        if (compared)
+            diff_pair_print_json(pair, NULL, stdout);
+        else
+            diff_print_json_none(NULL, "trouble", pair->path_a, pair->path_b, stdout);
         putchar('\n');
-    } else if (!option[OPTION_QUIET].given && !(out && is_stream(out))) {
+    } else if (compared && !option[OPTION_QUIET].given && !(out && is_stream(out))) {
         printf("%s: ", DIFF_VERDICT[pair->verdict]);
         diff_pair_print(pair, "", stdout);
     }
@@ -102,7 +108,7 @@ static enum status diff_files(const struct diff *diff, const char *a, const char
                               struct monge_diagnostics *diag) {
     struct diff_pair pair;
     bool good = diff_pair_compare(&pair, diff, a, b, diag);
-    if (good) tell_pair(&pair);
+    tell_pair(&pair, good);
     good = good && write_heat_map(&pair, diag);
     diff_pair_free(&pair);
     return !good ? STATUS_TROUBLE : pair.verdict == DIFF_DIFFERENT ? STATUS_NO : STATUS_YES;
@@ -130,7 +136,7 @@ static enum status compare(const struct diff *diff, struct monge_diagnostics *di
         return !diff->mask || monge_picture_decode(diff->mask, diag) ? diff_folders(diff) : STATUS_TROUBLE;
     char *a = find_file(diff, operands[0], operands[1]), *b = find_file(diff, operands[1], operands[0]);
     const enum status status =
-        a && b && check_heat_map(diff->args, a, b) ? diff_files(diff, a, b, diag) : STATUS_TROUBLE;
+        a && b && check_heat_map(diff, a, b) ? diff_files(diff, a, b, diag) : STATUS_TROUBLE;
     free(a);
     free(b);
     return status;

@@ -122,23 +122,15 @@ static void print_name(const char *name, FILE *out) {
     for (; *name; name++) fputc((unsigned char)*name < 0x20 || *name == 0x7f ? '?' : *name, out);
 }
 
-static void print_side(const struct folders *folders, const struct entry *entry, enum side side, FILE *out) {
-    fprintf(out, ",\n  \"%c\": ", side == SIDE_A ? 'a' : 'b');
-    char *path = diff_path(folders->folder[side], entry->name);
-    fputs(entry->in[side] ? "{\"file\": " : "null", out);
-    if (entry->in[side]) monge_write_json_string(path, out), fputs("}", out);
-    free(path);
-}
-
 /* Of a name without two pictures to compare. */
 static void tell_none(const struct folders *folders, const struct entry *entry, FILE *out) {
     const bool missing = entry->outcome != TROUBLE;
     if (folders->diff->args->option[OPTION_DIFF_JSON].given) {
-        fputs("{\n  \"name\": ", out);
-        monge_write_json_string(entry->name, out);
-        fprintf(out, ",\n  \"same\": false,\n  \"why\": \"%s\"", missing ? "missing" : "trouble");
-        for (enum side side = SIDE_A; side < SIDES; side++) print_side(folders, entry, side, out);
-        fputs("\n}", out);
+        char *path[SIDES] = {NULL};
+        for (enum side side = SIDE_A; side < SIDES; side++)
+            if (entry->in[side]) path[side] = diff_path(folders->folder[side], entry->name);
+        diff_print_json_none(entry->name, missing ? "missing" : "trouble", path[SIDE_A], path[SIDE_B], out);
+        for (enum side side = SIDE_A; side < SIDES; side++) free(path[side]);
     } else if (missing) {
         fputs("only in ", out);
         print_name(folders->folder[entry->outcome == ONLY_IN_A ? SIDE_A : SIDE_B], out);
@@ -253,34 +245,69 @@ static void compare_all(struct folders *folders) {
 
 /* ---- Where heat maps go ---- */
 
-/* Whether a folder is another one, or below it. */
-static bool lies_within(const char *inner, const char *outer) {
+/* Whether what is in a folder is found below another one: it is that folder or below it, and nothing between is hidden. */
+static bool is_found_below(const char *inner, const char *outer) {
     char *in = realpath(inner, NULL), *out = realpath(outer, NULL);
     const size_t length = out ? strlen(out) - (out[strlen(out) - 1] == '/') : 0;
     const bool within = in && out && strncmp(in, out, length) == 0 && (!in[length] || in[length] == '/');
+    const bool found = within && !strstr(in + length, "/.");
     free(in);
     free(out);
-    return within;
+    return found;
 }
 
-/* Heat maps among the pictures would take their places, or be compared the next time. */
+/* Whether the file would be among the pictures of the folder, the next time. The folders that it needs are perhaps not
+ * all there: its last one that is there decides. */
+static bool would_be_among(const char *path, const char *folder) {
+    char *at = say_text("%s", path), *slash;
+    while ((slash = strrchr(at, '/')) && slash > at) {
+        *slash = '\0';
+        if (path_is_folder(at)) break;
+    }
+    const bool among = is_found_below(slash == at ? "/" : slash ? at : ".", folder);
+    free(at);
+    return among;
+}
+
+/* Where the heat map of a name goes, it must not take the place of a picture, nor be compared the next time. */
+static bool check_heat_map(const struct folders *folders, const struct entry *entry) {
+    const char *out = folders->diff->args->option[OPTION_HEAT_MAP].text;
+    char *path = diff_path(out, entry->name);
+    char *pictures[SIDES], *lost = NULL;
+    for (enum side side = SIDE_A; side < SIDES; side++) {
+        const char *folder = folders->folder[side];
+        pictures[side] = diff_path(folder, entry->name);
+        if (!lost && would_be_among(path, folder)) lost = say_text("be among the pictures of %s", folder);
+    }
+    const char *over = diff_overwritten(folders->diff, path, pictures[SIDE_A], pictures[SIDE_B]);
+    if (!lost && over) lost = say_text("write over %s", over);
+    if (lost) say_usage(COMMAND_DIFF, "--out %s: the heat map %s would %s", out, path, lost);
+    for (enum side side = SIDE_A; side < SIDES; side++) free(pictures[side]);
+    const bool good = !lost;
+    free(lost);
+    free(path);
+    return good;
+}
+
+/* All that there may be are looked at before the first is written. */
 static bool check_heat_maps(const struct folders *folders) {
     const char *out = folders->diff->args->option[OPTION_HEAT_MAP].text;
     if (!out) return true;
-    if (strcmp(out, "-") == 0) {
-        say_usage(COMMAND_DIFF, "--out -: the heat maps of folders need a folder");
-        return false;
-    }
     char *inside = diff_path(out, "");
     bool good = path_make_folders(inside);
     free(inside);
-    for (enum side side = SIDE_A; good && side < SIDES; side++) {
-        const char *folder = folders->folder[side];
-        good = !lies_within(out, folder) && !lies_within(folder, out);
-        if (!good)
-            say_usage(COMMAND_DIFF, "--out %s: heat maps cannot be among the pictures of %s", out, folder);
+    for (size_t i = 0; good && i < folders->count; i++) {
+        const struct entry *entry = &folders->entries[i];
+        if (entry->in[SIDE_A] && entry->in[SIDE_B]) good = check_heat_map(folders, entry);
     }
     return good;
+}
+
+static bool check_stream(const struct diff *diff) {
+    const char *out = diff->args->option[OPTION_HEAT_MAP].text;
+    if (!out || strcmp(out, "-") != 0) return true;
+    say_usage(COMMAND_DIFF, "--out -: the heat maps of folders need a folder");
+    return false;
 }
 
 /* ---- The command ---- */
@@ -291,19 +318,24 @@ static enum status find_status(const struct folders *folders) {
     return n[DIFF_DIFFERENT] + n[ONLY_IN_A] + n[ONLY_IN_B] > 0 ? STATUS_NO : STATUS_YES;
 }
 
+static void folders_free(struct folders *folders) {
+    for (enum side side = SIDE_A; side < SIDES; side++) {
+        for (size_t i = 0; i < folders->names[side].count; i++) free(folders->names[side].all[i]);
+        free(folders->names[side].all);
+    }
+    free(folders->entries);
+}
+
 enum status diff_folders(const struct diff *diff) {
     char *const *operands = diff->args->operands;
     struct folders folders = {.diff = diff, .folder = {operands[0], operands[1]}};
-    if (!check_heat_maps(&folders)) return STATUS_TROUBLE;
+    if (!check_stream(diff)) return STATUS_TROUBLE;
     find(&folders);
-    if (folders.count == 0)
+    const bool good = check_heat_maps(&folders);
+    if (good && folders.count == 0)
         say_error("there is no PNG file below %s or %s", operands[0], operands[1]);
-    else
+    else if (good)
         compare_all(&folders);
-    for (enum side side = SIDE_A; side < SIDES; side++) {
-        for (size_t i = 0; i < folders.names[side].count; i++) free(folders.names[side].all[i]);
-        free(folders.names[side].all);
-    }
-    free(folders.entries);
-    return find_status(&folders);
+    folders_free(&folders);
+    return good ? find_status(&folders) : STATUS_TROUBLE;
 }

@@ -2,6 +2,7 @@
 
 #include <inttypes.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
@@ -67,10 +68,15 @@ static bool passes(const struct diff *diff, const struct monge_difference *d) {
 
 /* ---- The comparison ---- */
 
-bool diff_same_file(const char *a, const char *b) {
+static bool same_file(const char *a, const char *b) {
     struct stat of_a, of_b;
     return stat(a, &of_a) == 0 && stat(b, &of_b) == 0 && of_a.st_dev == of_b.st_dev &&
            of_a.st_ino == of_b.st_ino;
+}
+
+const char *diff_overwritten(const struct diff *diff, const char *out, const char *a, const char *b) {
+    if (same_file(out, a) || same_file(out, b)) return "a picture that is compared";
+    return diff->mask_file && same_file(out, diff->mask_file) ? "the mask" : NULL;
 }
 
 static const char *shown(const char *path) { return strcmp(path, "-") == 0 ? "standard input" : path; }
@@ -118,12 +124,24 @@ bool diff_pair_write_heat_map(const struct diff_pair *pair, const char *path,
 
 /* ---- For people ---- */
 
+/* With so many digits, or as many more as it takes that what is less than `most` is not shown as that. */
+static void print_below(double value, int digits, double most, FILE *out) {
+    char text[32];
+    do snprintf(text, sizeof text, "%.*g", digits, value);
+    while (value < most && strtod(text, NULL) >= most && digits++ < 17);
+    fputs(text, out);
+}
+
 static void print_unlike(const struct diff_pair *pair, FILE *out) {
     const struct monge_picture *a = pair->a, *b = pair->b;
     const struct monge_difference *d = &pair->difference;
     if (d->unlike == MONGE_UNLIKE_SIZE)
         fprintf(out, "their sizes are %u x %u and %u x %u pixels", monge_picture_width(a),
                 monge_picture_height(a), monge_picture_width(b), monge_picture_height(b));
+    else if (d->unlike == MONGE_UNLIKE_COLOR_SPACE &&
+             strcmp(monge_picture_color_space(a), monge_picture_color_space(b)) == 0)
+        fprintf(out, "their colour spaces are not the same, though both are called %s",
+                monge_picture_color_space(a));
     else if (d->unlike == MONGE_UNLIKE_COLOR_SPACE)
         fprintf(out, "their colour spaces are %s and %s", monge_picture_color_space(a),
                 monge_picture_color_space(b));
@@ -137,25 +155,40 @@ static void print_pixels(const struct diff_pair *pair, FILE *out) {
         fprintf(out, "all of %" PRIu64 " pixels are equal", d->pixels);
         return;
     }
-    fprintf(out, "%" PRIu64 " of %" PRIu64 " pixels (%.3g %%), largest difference %.4g at %u,%u",
-            d->different, d->pixels, 100.0 * measure(d, MONGE_METRIC_EXACT), d->max, d->max_x, d->max_y);
-    if (d->beyond < d->different) fprintf(out, "; %" PRIu64 " beyond --max-delta", d->beyond);
-    if (pair->diff->args->option[OPTION_MAX_PIXELS].given && !pixels_pass(pair->diff, d))
+    const struct option_value *option = pair->diff->args->option;
+    fprintf(out, "%" PRIu64 " of %" PRIu64 " pixels (", d->different, d->pixels);
+    print_below(100.0 * measure(d, MONGE_METRIC_EXACT), 3, 100.0, out);
+    fputs(" %), largest difference ", out);
+    print_below(d->max, 4, 1.0, out);
+    fprintf(out, " at %u,%u", d->max_x, d->max_y);
+    if (option[OPTION_MAX_DELTA].given && !diff_limits_means(pair->diff))
+        fprintf(out, "; %" PRIu64 " beyond --max-delta", d->beyond);
+    if (option[OPTION_MAX_PIXELS].given && !pixels_pass(pair->diff, d))
         fputs("; more than --max-pixels", out);
+}
+
+/* Of what --max-delta is a limit for: of channels that is the largest difference. */
+static bool is_beyond(const struct diff_pair *pair, enum monge_metric metric) {
+    if (!pair->diff->args->option[OPTION_MAX_DELTA].given) return false;
+    if (diff_limits_means(pair->diff)) return !mean_passes(pair->diff, &pair->difference, metric);
+    return metric == MONGE_METRIC_MAX && pair->difference.beyond > 0;
+}
+
+static void print_metric(const struct diff_pair *pair, enum monge_metric metric, const char *before,
+                         FILE *out) {
+    fprintf(out, "%s%-5s  ", before, names[metric]);
+    print_below(measure(&pair->difference, metric), 6, 1.0, out);
+    fputs(is_beyond(pair, metric) ? "  beyond --max-delta\n" : "\n", out);
 }
 
 void diff_pair_print(const struct diff_pair *pair, const char *before, FILE *out) {
     const struct monge_difference *d = &pair->difference;
-    const struct option_value *option = pair->diff->args->option;
-    const unsigned metrics = option[OPTION_METRIC].given ? pair->diff->metrics : 0;
-    const bool limited = option[OPTION_MAX_DELTA].given && diff_limits_means(pair->diff);
+    const unsigned metrics = pair->diff->args->option[OPTION_METRIC].given ? pair->diff->metrics : 0;
     if (d->unlike != MONGE_UNLIKE_NOTHING) print_unlike(pair, out);
     if (!isnan(d->max)) print_pixels(pair, out);
     fputc('\n', out);
     for (enum monge_metric m = 0; m < MONGE_METRICS; m++)
-        if (metrics & METRIC_BIT(m) && !isnan(measure(d, m)))
-            fprintf(out, "%s%-5s  %.6g%s\n", before, names[m], measure(d, m),
-                    limited && !mean_passes(pair->diff, d, m) ? "  beyond --max-delta" : "");
+        if (metrics & METRIC_BIT(m) && !isnan(measure(d, m))) print_metric(pair, m, before, out);
 }
 
 /* ---- For programs ---- */
@@ -172,21 +205,40 @@ static void print_side(const char *key, const char *path, const struct monge_pic
 
 static const char *find_reason(const struct monge_difference *d) {
     static const char *const reasons[] = {
-        [MONGE_UNLIKE_NOTHING] = "\"pixels\"",
-        [MONGE_UNLIKE_SIZE] = "\"size\"",
-        [MONGE_UNLIKE_COLOR_SPACE] = "\"color space\"",
-        [MONGE_UNLIKE_BITS] = "\"bits\"",
+        [MONGE_UNLIKE_NOTHING] = "pixels",
+        [MONGE_UNLIKE_SIZE] = "size",
+        [MONGE_UNLIKE_COLOR_SPACE] = "color space",
+        [MONGE_UNLIKE_BITS] = "bits",
     };
-    return d->same ? "null" : reasons[d->unlike];
+    return d->same ? NULL : reasons[d->unlike];
+}
+
+/* The beginning of an object. why NULL: they are the same in every respect. */
+static void print_verdict(const char *name, bool same, const char *why, FILE *out) {
+    fputs("{\n", out);
+    if (name) fputs("  \"name\": ", out), monge_write_json_string(name, out), fputs(",\n", out);
+    fprintf(out, "  \"same\": %s,\n  \"why\": ", same ? "true" : "false");
+    why ? monge_write_json_string(why, out) : (void)fputs("null", out);
+}
+
+static void print_file(const char *key, const char *path, FILE *out) {
+    fprintf(out, ",\n  \"%s\": %s", key, path ? "{\"file\": " : "null");
+    if (path) monge_write_json_string(path, out), fputc('}', out);
+}
+
+void diff_print_json_none(const char *name, const char *why, const char *path_a, const char *path_b,
+                          FILE *out) {
+    print_verdict(name, false, why, out);
+    print_file("a", path_a, out);
+    print_file("b", path_b, out);
+    fputs("\n}", out);
 }
 
 void diff_pair_print_json(const struct diff_pair *pair, const char *name, FILE *out) {
     const struct monge_difference *d = &pair->difference;
     const struct monge_region *r = &d->bounds;
-    fputs("{\n", out);
-    if (name) fputs("  \"name\": ", out), monge_write_json_string(name, out), fputs(",\n", out);
-    fprintf(out, "  \"same\": %s,\n  \"why\": %s,\n", pair->verdict == DIFF_DIFFERENT ? "false" : "true",
-            find_reason(d));
+    print_verdict(name, pair->verdict != DIFF_DIFFERENT, find_reason(d), out);
+    fputs(",\n", out);
     print_side("a", pair->path_a, pair->a, out);
     print_side("b", pair->path_b, pair->b, out);
     fprintf(out, "  \"pixels\": %" PRIu64 ",\n  \"different\": %" PRIu64 ",\n  \"beyond\": %" PRIu64 ",\n",

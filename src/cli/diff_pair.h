@@ -11,6 +11,7 @@
 struct diff {
     const struct arguments *args;
     struct monge_picture *mask;  /* owned */
+    const char *mask_file;       /* NULL: none */
     struct monge_region *ignore; /* owned */
     struct monge_compare how;
     struct report report; /* as text */
@@ -43,9 +44,16 @@ void diff_pair_print(const struct diff_pair *pair, const char *before, FILE *out
 /* As a JSON object, with the name where there is one (NULL: none). */
 void diff_pair_print_json(const struct diff_pair *pair, const char *name, FILE *out);
 
+/* The same where nothing could be compared, for the reason "missing" or "trouble": of the files alone. NULL: there is
+ * none. */
+void diff_print_json_none(const char *name, const char *why, const char *path_a, const char *path_b,
+                          FILE *out);
+
 /* False: diag says why. */
 bool diff_pair_write_heat_map(const struct diff_pair *pair, const char *path, struct monge_diagnostics *diag);
 
-bool diff_same_file(const char *a, const char *b);
+/* What a heat map of that name would write over: "the mask", or "a picture that is compared", which a and b are. NULL:
+ * nothing of these. */
+const char *diff_overwritten(const struct diff *diff, const char *out, const char *a, const char *b);
 
 #endif

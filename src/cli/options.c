@@ -175,6 +175,34 @@ static void describe_value(const struct option_row *row, char *text, size_t size
     }
 }
 
+/* The nearest of the words of a table to another one. To be freed. NULL: none is near. */
+static char *find_near(const char *choices, const char *word) {
+    char *all = say_text("%s", choices);
+    struct suggestion nearest = {.word = word};
+    for (char *at = all, *choice; (choice = strsep(&at, "|"));) suggestion_try(&nearest, choice);
+    const char *best = suggestion_best(&nearest);
+    char *near = best ? say_text("%s", best) : NULL;
+    free(all);
+    return near;
+}
+
+/* Of a list it is the first word that is wrong which is told; where a comma has no word beside it, the list. */
+static void refuse_words(enum command_id command, const struct option_row *row, const char *shown,
+                         const char *expected, const char *text) {
+    unsigned choice;
+    const char *at = text;
+    size_t length;
+    while (length = strcspn(at, ","), read_choice(row->value, at, length, &choice)) at += length + 1;
+    char *word = length > 0 ? say_text("%.*s", (int)length, at) : say_text("%s", text);
+    char *near = find_near(row->value, word);
+    if (near)
+        say_usage(command, "%s: expected %s, found `%s`; did you mean `%s`?", shown, expected, word, near);
+    else
+        say_usage(command, "%s: expected %s, found `%s`", shown, expected, word);
+    free(near);
+    free(word);
+}
+
 /* `shown` is the option as the user wrote it, --size or -o. A NULL text is a value that is missing. */
 static bool set_value(struct arguments *args, enum option_id option, const char *shown, const char *text) {
     const struct option_row *row = &OPTION_TABLE[option];
@@ -185,7 +213,9 @@ static bool set_value(struct arguments *args, enum option_id option, const char 
         return args->option[option].given = true;
     }
     describe_value(row, expected, sizeof expected);
-    if (text)
+    if (text && row->kind == VALUE_CHOICES)
+        refuse_words(args->command, row, shown, expected, text);
+    else if (text)
         say_usage(args->command, "%s: expected %s, found `%s`", shown, expected, text);
     else
         say_usage(args->command, "%s: expected %s, found nothing", shown, expected);

@@ -6,8 +6,7 @@
 #include <string.h>
 
 #include "base/parallel.h"
-#include "image/flip.h"
-#include "image/ssim.h"
+#include "image/seen.h"
 
 /* ---- What is ignored ---- */
 
@@ -132,10 +131,10 @@ static bool compare_decoded(struct comparison *c, const struct monge_compare *ho
                             struct monge_difference *out) {
     compare_pixels(c, how->max_delta, out);
     out->same = out->unlike == MONGE_UNLIKE_NOTHING && out->different == 0;
-    if (how->metrics >> MONGE_METRIC_SSIM & 1 && out->different > 0 && !ssim_mean(c, &out->ssim))
+    if (how->metrics >> MONGE_METRIC_SSIM & 1 && out->different > 0 && !seen_ssim(c, &out->ssim))
         return false;
     if (how->metrics >> MONGE_METRIC_FLIP & 1 && out->different > 0 &&
-        !flip_mean(c, how->ppd > 0.0 ? how->ppd : MONGE_DEFAULT_PPD, NULL, &out->flip))
+        !seen_flip(c, how->ppd > 0.0 ? how->ppd : MONGE_DEFAULT_PPD, NULL, &out->flip))
         return false;
     return true;
 }

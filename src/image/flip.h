@@ -1,6 +1,6 @@
 /* FLIP: the difference that is seen when two pictures alternate (Andersson, Nilsson, Akenine-Möller, Oskarsson,
  * Åström, Fairchild: FLIP: A Difference Evaluator for Alternating Images, HPG 2020), for pictures of low range.
- * Alpha is not looked at. */
+ * Alpha is not looked at: `seen` does. */
 #ifndef MONGE_IMAGE_FLIP_H
 #define MONGE_IMAGE_FLIP_H
 

@@ -7,8 +7,8 @@
 #include <string.h>
 #include <zlib.h>
 
-#include "image/flip.h"
 #include "image/png_file.h"
+#include "image/seen.h"
 
 /* ---- Colours ---- */
 
@@ -73,7 +73,7 @@ static bool make_errors(struct heat *heat, const struct monge_compare *how) {
     heat->all = how->metrics >> MONGE_METRIC_FLIP & 1;
     heat->errors = calloc((size_t)c->a->width * (heat->all ? c->a->height : 1), sizeof *heat->errors);
     if (!heat->errors || !heat->all || c->pixels == 0) return heat->errors != NULL;
-    return flip_mean(c, how->ppd > 0.0 ? how->ppd : MONGE_DEFAULT_PPD, heat->errors, &mean);
+    return seen_flip(c, how->ppd > 0.0 ? how->ppd : MONGE_DEFAULT_PPD, heat->errors, &mean);
 }
 
 static bool write_file(struct heat *heat, const struct monge_compare *how, const char *path,

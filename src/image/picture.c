@@ -7,6 +7,7 @@
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -195,6 +196,7 @@ static bool reader_begin(struct reader *r) {
     if (r->png) r->info = png_create_info_struct(r->png);
     if (!r->info) return fail(r->reason, "%s", strerror(ENOMEM));
     png_set_read_fn(r->png, r, on_read);
+    png_set_user_limits(r->png, PNG_UINT_31_MAX, PNG_UINT_31_MAX); /* the pixels together have one */
     png_set_crc_action(r->png, PNG_CRC_QUIET_USE, PNG_CRC_QUIET_USE);
     png_set_chunk_malloc_max(r->png, MAX_CHUNK_MEMORY);
     png_set_chunk_cache_max(r->png, MAX_CHUNKS_KEPT);
@@ -231,7 +233,8 @@ static bool take_size(struct monge_picture *picture, struct reader *r) {
     picture->plain = whole && type != PNG_COLOR_TYPE_PALETTE && !keyed;
     if (picture->indexed) take_palette(picture, r);
     if ((uint64_t)picture->width * picture->height <= MONGE_MAX_PIXELS) return true;
-    return fail(r->reason, "it is too large: %u x %u pixels", picture->width, picture->height);
+    return fail(r->reason, "it is too large: %u x %u pixels, of at most %d together", picture->width,
+                picture->height, MONGE_MAX_PIXELS);
 }
 
 static bool take_profile(struct color_space *space, struct reader *r) {
@@ -242,7 +245,9 @@ static bool take_profile(struct color_space *space, struct reader *r) {
     if (!png_get_iCCP(r->png, r->info, &name, &compression, &profile, &size)) return true;
     space->kind = COLOR_PROFILE;
     space->profile_size = size;
-    snprintf(space->name, sizeof space->name, "ICC profile %.79s", name);
+    /* Many are called "ICC profile". */
+    snprintf(space->name, sizeof space->name, "%s%.79s",
+             strncasecmp(name, "icc profile", 11) == 0 ? "" : "ICC profile ", name);
     space->profile = malloc(size);
     if (!space->profile) return fail(r->reason, "%s", strerror(ENOMEM));
     memcpy(space->profile, profile, size);
@@ -262,13 +267,20 @@ static bool is_like_srgb(const struct color_space *space, bool has_primaries) {
     return like;
 }
 
+static void take_gamma(struct color_space *space) {
+    space->kind = COLOR_GAMMA;
+    snprintf(space->name, sizeof space->name, "gamma %.5g", space->gamma / 100000.0);
+}
+
 static bool take_space(struct color_space *space, struct reader *r) {
     int intent;
     snprintf(space->name, sizeof space->name, "sRGB");
     if (!png_get_sRGB(r->png, r->info, &intent) && png_get_gAMA_fixed(r->png, r->info, &space->gamma) &&
-        space->gamma > 0 && !is_like_srgb(space, take_primaries(space->primaries, r))) {
-        space->kind = COLOR_GAMMA;
-        snprintf(space->name, sizeof space->name, "gamma %.5g", space->gamma / 100000.0);
+        space->gamma > 0) {
+        if (is_like_srgb(space, take_primaries(space->primaries, r)))
+            memset(space->primaries, 0, sizeof space->primaries);
+        else
+            take_gamma(space);
     }
     return take_profile(space, r);
 }

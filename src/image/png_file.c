@@ -36,6 +36,7 @@ static bool write_stream(struct png_file *file, FILE *stream, size_t row_size,
     file->png = png_create_write_struct(PNG_LIBPNG_VER_STRING, file, on_error, on_warning);
     if (file->png) file->info = png_create_info_struct(file->png);
     if (file->row && file->info) {
+        png_set_user_limits(file->png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
         png_set_write_fn(file->png, stream, on_write, on_flush);
         written = put_all(file, put, context);
     } else {

@@ -1,6 +1,6 @@
 /* SSIM: structural similarity (Wang, Bovik, Sheikh, Simoncelli: Image Quality Assessment: From Error Visibility to
  * Structural Similarity, IEEE Transactions on Image Processing 13, 2004), of luma: 0.299 R + 0.587 G + 0.114 B of the
- * numbers in the files. Alpha is not looked at. */
+ * numbers in the files. Alpha is not looked at: `seen` does. */
 #ifndef MONGE_IMAGE_SSIM_H
 #define MONGE_IMAGE_SSIM_H
 
