@@ -820,6 +820,26 @@ done
 mkdir -p run/new run/old
 for folder in run/new run/old/ run; do exits 2 test s --golden $folder --output run; err_has 'would write into the folder of the goldens'; done
 ok 'the goldens are as before' [ "$(sums g)" = "$(cat before)" ]; rm -rf link run
+for folder in g/run g/in/../run ./g/a/b "$work/g/run"; do
+    exits 2 test s --golden g --output "$folder"; err_has "--output $folder would write into the folder of the goldens, g"; no_out
+    exits 2 test s --golden g --report "$folder"; err_has "--report $folder would write into the folder of the goldens, g"; no_out
+done
+exits 2 test s --golden g-too/new/x --output g-too; err_has 'would write into the folder of the goldens'
+exits 0 test s --golden g --output g-too -q; rm -rf g-too # another folder, though its name begins so
+ok 'the goldens are as before' [ "$(sums g)" = "$(cat before)" ]
+# documents over what is read, or over each other
+ln s/two.yaml hard; ln -s g/one.png soft; echo 'image: {}' >more.yml; sums s >scenes; rm -rf monge-test
+for option in json junit; do
+    refuses() { exits 2 test s --golden g --$option "$1"; ok 'a line' [ "$(cat err)" = "monge: --$option $1$2" ]; no_out; missing monge-test; }
+    for file in g/golden.yaml g/one.png g/golden.lock g/new.json soft; do refuses $file ' would write into the folder of the goldens, g'; done
+    refuses hard ' would write over a scene of the run'; refuses s/two.yaml ' would write over a scene of the run'
+    for file in more.yml s/none.YAML x.png x.lock; do refuses $file ': it is called as scenes or goldens are, and would be none'; done
+done
+exits 2 test s --golden g --json j --junit ./j; err_has '--json and --junit would write the same file, ./j'; missing j
+exits 2 test s --golden g --junit monge-test/results.json; err_has '--output and --junit would write the same file'
+exits 2 test s --golden g --report r --json r/index.html; err_has '--report and --json would write the same file'
+exits 0 test s --golden g --json monge-test/results.json --junit j -q; exits 0 test s --golden g --json /dev/null --junit /dev/null -q
+ok 'nothing that is read is touched' [ "$(sums g; sums s)" = "$(cat before scenes)" ]; rm -f hard soft more.yml j
 exits 2 test s --golden g --report ./g; err_has '--report ./g would write into the folder of the goldens, g'; missing g/index.html
 exits 2 test s --golden fresh --output new/../fresh; err_has 'would write into'; missing fresh; missing new
 exits 1 test s --golden fresh --output /fresh/../$work/./away/../fresh.2 -q; rm -rf fresh.2

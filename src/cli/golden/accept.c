@@ -4,13 +4,13 @@
 #include <fnmatch.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include "cli/golden/folder.h"
 #include "cli/golden/results.h"
 #include "cli/golden/settings.h"
 #include "cli/golden/take.h"
+#include "cli/golden/targets.h"
 #include "cli/interrupt.h"
 #include "cli/paths.h"
 #include "cli/say.h"
@@ -277,12 +277,6 @@ static enum status settle(struct acceptance *a) {
 
 /* ---- All of it ---- */
 
-static bool is_same_folder(const char *a, const char *b) {
-    struct stat p, q;
-    return strcmp(a, b) == 0 ||
-           (stat(a, &p) == 0 && stat(b, &q) == 0 && p.st_dev == q.st_dev && p.st_ino == q.st_ino);
-}
-
 static bool read_run(struct acceptance *a) {
     char *path = path_below(a->output, "results.json", "");
     const enum golden_reading reading = golden_results_read(&a->results, path);
@@ -291,7 +285,7 @@ static bool read_run(struct acceptance *a) {
     if (good && !a->results.folder) {
         say_error("%s is not there: `monge test` makes it, with --output %s", path, a->output);
         good = false;
-    } else if (good && !is_same_folder(a->results.folder, a->folder)) {
+    } else if (good && !golden_is_same_file(a->results.folder, a->folder)) {
         say_error("%s: the last run was with the goldens of %s", path, a->results.folder);
         good = false;
     }

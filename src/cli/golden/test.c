@@ -14,6 +14,7 @@
 #include "cli/golden/rules.h"
 #include "cli/golden/run.h"
 #include "cli/golden/take.h"
+#include "cli/golden/targets.h"
 #include "cli/golden/tell.h"
 #include "cli/interrupt.h"
 #include "cli/paths.h"
@@ -72,12 +73,6 @@ static bool find_scenes(struct test *test) {
     return true;
 }
 
-static bool is_same_file(const char *a, const char *b) {
-    struct stat p, q;
-    return strcmp(a, b) == 0 ||
-           (stat(a, &p) == 0 && stat(b, &q) == 0 && p.st_dev == q.st_dev && p.st_ino == q.st_ino);
-}
-
 static int compare_scenes(const void *a, const void *b) {
     const struct golden_scene *p = *(const struct golden_scene *const *)a,
                               *q = *(const struct golden_scene *const *)b;
@@ -94,7 +89,7 @@ static bool check_scenes(struct golden_run *run) {
     if (good && run->count > 1) qsort(sorted, run->count, sizeof *sorted, compare_scenes);
     for (size_t i = 1; good && i < run->count; i++) {
         if (strcmp(sorted[i - 1]->name, sorted[i]->name) != 0) continue;
-        good = is_same_file(sorted[i - 1]->path, sorted[i]->path);
+        good = golden_is_same_file(sorted[i - 1]->path, sorted[i]->path);
         if (!good)
             say_error("%s and %s would have the same golden, %s: give --root, or golden.yaml a `root`",
                       sorted[i - 1]->path, sorted[i]->path, sorted[i]->name);
@@ -174,27 +169,6 @@ static bool make_folder(const char *path) {
     const bool good = there || (path_make_folders(file) && golden_write(file, &ignore));
     free(file);
     return good;
-}
-
-/* Whether what an option has given, or a part of it, is another folder than that of the goldens. */
-static bool keeps_out(const struct golden_run *run, const char *option, const char *given, const char *part) {
-    char *path = path_below(given, part, ""), *real = golden_real_path(path);
-    char *goldens = golden_real_path(run->folder);
-    const bool good = strcmp(real, goldens) != 0;
-    if (!good)
-        say_error("--%s %s would write into the folder of the goldens, %s", option, given, run->folder);
-    free(goldens);
-    free(real);
-    free(path);
-    return good;
-}
-
-/* The run writes into its folder, and removes what is in its new/ and old/: goldens must not be there. */
-static bool check_folders(const struct test *test) {
-    const struct golden_run *run = &test->run;
-    const char *report = test->args.option[OPTION_REPORT].text;
-    return keeps_out(run, "output", run->output, "") && keeps_out(run, "output", run->output, "new") &&
-           keeps_out(run, "output", run->output, "old") && (!report || keeps_out(run, "report", report, ""));
 }
 
 static bool prepare_folder(struct golden_run *run) {
@@ -451,7 +425,7 @@ static bool begin(struct test *test, const struct arguments *args) {
                               &option[OPTION_ROOT], &run->loader))
         return false;
     golden_warn_of_tolerances(run);
-    if (!check_folders(test) || !find_scenes(test) || !name_scenes(run) ||
+    if (!find_scenes(test) || !name_scenes(run) || !golden_check_targets(run, option) ||
         !golden_lock_read(&run->lock, run->folder) || !prepare_folder(run))
         return false;
     mention_folder(test);
