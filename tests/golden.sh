@@ -260,7 +260,7 @@ lock 'x 1x1x8 pixels=%s  text=%s\n' $hash $hash; err_has 'each once'
 lock 'x 1x1x8 pixels=%s' $hash; err_has 'the line is cut off'
 lock 'x 1x1x8 pix\0els=%s\n' $hash; err_has 'NUL'
 lock 'x 1x1x8 pixels=%s options=\x01\n' $hash; err_has 'must be written as %XX'
-lock 'one 1x1x8 pixels=%s\n' $hash; err_has 'two lines for one'
+lock 'one 1x1x8 pixels=%s\n' $hash; err_has 'g/golden.lock:5: a second line for one, as line 3 is: keep one of them'
 cp lock g/golden.lock; exits 0 test s --golden g
 
 printf 'a%%0Ab%%1B[31m%%7F 1x1x8 pixels=%s\n' $hash >>g/golden.lock; exits 1 test s --golden g
@@ -287,6 +287,10 @@ wrong 'x.yaml' 'expected options alone, found `x.yaml`'
 wrong "\"-D 'a=1\"" 'a quote is not closed'
 wrong '--shadow 0.5 --no-shadows' 'give one of them'
 fresh 'rules: [{scenes: one, tolerance: {max: 0.1}}]'; exits 2 test s --golden g; err_has 'a tolerance needs the key `reason`'
+# one without rules
+for empty in '' '# kind: hash' '   # a' $'\n\n# a\n' '---' '--- # a' $'# a\r\n---\n\t'; do fresh "$empty"; exits 1 test s --golden g; no_err; says new one; done
+fresh; : >g/golden.yaml; exits 1 test s --golden g; no_err; exits 0 accept --golden g; there g/one.png
+for other in '-' '- # a' '--' 'a' '# a'$'\n''a'; do fresh "$other"; exits 2 test s --golden g; err_has 'g/golden.yaml:'; done
 fresh 'root: ../nowhere'; exits 2 test s --golden g; err_has '`root`: g/../nowhere: No such file'
 fresh 'rules: [{scenes: one, options: --frames 2}]'; exits 1 test s --golden g; says broken one; out_has 'has no animation'
 fresh 'rules: [{scenes: one, options: --frames all}]'; exits 1 test s --golden g; says new one; out_has 'monge render s/one.yaml -o one.png'
@@ -577,6 +581,11 @@ out_has 'object "ball" (s/one.yaml:5): shading changed, geometry equal'
 out_has 'object "lid" (s/one.yaml:8): geometry moved'
 out_has 'object "floor" (s/one.yaml:11): shadow changed'
 exits 0 accept --golden g; exits 0 test s --golden g
+# what is gone has a place in the scene of then alone
+cp s/one.yaml kept; sed -i '/^  - box/,/translate/d; s/^lights/\n\nlights/' s/one.yaml
+exits 1 test s --golden g --json j.json --report r; out_has 'object "lid" (was at s/one.yaml:8): disappeared'; out_has 'object "floor" (s/one.yaml:'
+for file in j.json r/index.html; do ok "$file has that place" grep -qF 'object \"lid\" (was at s/one.yaml:8): disappeared' $file; done
+mv kept s/one.yaml; rm -r j.json r
 # another camera: it alone, and no object is accused
 sed -i 's/eye: \[0, 3, 8\]/eye: [0, 3, 7]/' s/one.yaml
 exits 1 test s --golden g --json j.json --report r
