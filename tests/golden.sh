@@ -151,8 +151,14 @@ for kind in png hash both; do
     exits 1 test s --golden g; says orphan two; out_has 'no scene makes it any more'
     exits 0 test s/one.yaml --golden g; out_lacks orphan
     exits 1 test s --golden g -q
-    exits 0 accept --golden g; out_has '0 taken'
-    exits 0 accept --golden g --prune; out_has 'removed two'; missing g/two.png
+    out_has '`monge accept --prune` removes it'
+    exits 0 accept --golden g; ok 'the orphan is counted' [ "$(cat out)" = $'0 taken\n1 orphan is left: --prune removes it' ]
+    exits 0 accept --golden g -q; no_out; exits 0 accept one --golden g; out_lacks orphan; exits 0 accept two --golden g -n; out_has '1 orphan is left'
+    mv 's/in/a b%.yaml' kept.yaml; exits 1 test s --golden g -q; out_has '`monge accept --prune` removes it'
+    exits 0 accept --golden g; out_has '2 orphans are left: --prune removes them'; mv kept.yaml 's/in/a b%.yaml'
+    exits 0 accept --golden g; out_has '1 orphan is left'; exits 1 test s --golden g
+    exits 0 accept --golden g --prune; out_has 'removed two'; out_lacks 'left'; missing g/two.png
+    exits 0 accept --golden g; out_lacks orphan
     exits 0 test s --golden g; out_has '2 goldens: 2 same'
     echo 'scene: [{sphre: {}}]' >s/one.yaml
     exits 1 test s --golden g; says broken one; out_has 'did you mean `sphere`?'; out_lacks orphan
@@ -471,8 +477,13 @@ for kind in png hash both; do
     fresh "kind: $kind"; cp s/two.yaml s/twin.yaml; exits 0 test s --golden g --update-only-failed -q
     mv s/one.yaml s/uno.yaml; rm s/twin.yaml; scene s/three.yaml blue
     exits 1 test s --golden g --junit junit.xml; says orphan one; says new uno; says new three; says orphan twin
-    out_has 'its picture is that of uno, which is new: was the scene renamed?'
-    ok 'of none but that' [ "$(grep -c renamed out)" -eq 1 ]
+    for tap in '' --tap; do
+        exits 1 test s --golden g $tap
+        out_has 'its picture is that of uno, which is new: was the scene renamed?'
+        out_has 'its picture is that of the orphan one: was the scene renamed?'
+        ok 'of none but these' [ "$(grep -c renamed out)" -eq 2 ]
+    done
+    exits 1 test s --golden g --junit junit.xml
     for file in junit.xml monge-test/results.json; do
         ok "$file has it of both" [ "$(grep -o 'its picture is that of the orphan one: was the scene renamed?\|its picture is that of uno, which is new: was the scene renamed?' $file | sort -u | wc -l)" -eq 2 ]
     done
@@ -768,6 +779,8 @@ if have git; then
     scene s/one.yaml lime; git add s; commit 1 'as it is in the folder'; err_lacks 'what is staged'
     scene s/one.yaml blue; commit 1 'a change that is staged alone'; err_has 'pre-commit: this is of what is staged; files in the folder differ from that: `git add` stages them'
     exits 0 test --golden goldens -q; git add s
+    git rm -qf s/two.yaml; commit 1 'a scene that is gone'; err_has '`'"$monge"' accept --golden goldens --prune` takes what is meant'
+    exits 1 test --golden goldens -q; exits 0 accept --golden goldens --prune; git add goldens; commit 0 'its golden, too'
     last='git commit'; MONGE=no/monge git commit --allow-empty -qm x >out 2>err; ok 'no program' [ $? -eq 1 ]
     ok 'is told in a line' [ "$(cat err)" = 'pre-commit: there is no program no/monge: MONGE=/path/to/monge git commit, or write that path into .git/hooks/pre-commit' ]
     rm -rf .git

@@ -27,6 +27,7 @@ struct acceptance {
     const char **scenes; /* owned: names of the scenes of the run, sorted */
     size_t scene_count;
     size_t taken, removed, refused, done; /* done: before, already */
+    size_t orphans;                       /* that --prune would remove */
     char *sealed; /* owned: the folder of which was told last that nothing can be written there; NULL: none */
     bool trouble;
 };
@@ -213,10 +214,12 @@ static bool scene_is_back(struct acceptance *a, const char *name) {
     return back;
 }
 
+static bool is_gone(const struct acceptance *a, const struct golden_case *c) {
+    return !golden_lock_find(&a->lock, c->name) && !(c->golden_path && path_is_file(c->golden_path));
+}
+
 static void remove_orphan(struct acceptance *a, struct golden_case *c) {
-    free(c->golden_path);
-    c->golden_path = c->kind == MONGE_GOLDEN_HASH ? NULL : path_below(a->folder, c->name, ".png");
-    if (!golden_lock_find(&a->lock, c->name) && !(c->golden_path && path_is_file(c->golden_path)))
+    if (is_gone(a, c))
         pass_by(a, c, "removed");
     else if (scene_is_back(a, c->name))
         refuse(a, c, "its scene is there again");
@@ -228,9 +231,18 @@ static void remove_orphan(struct acceptance *a, struct golden_case *c) {
     }
 }
 
+static void settle_orphan(struct acceptance *a, struct golden_case *c) {
+    free(c->golden_path);
+    c->golden_path = c->kind == MONGE_GOLDEN_HASH ? NULL : path_below(a->folder, c->name, ".png");
+    if (a->args->option[OPTION_PRUNE].given)
+        remove_orphan(a, c);
+    else
+        a->orphans += !is_gone(a, c) && !scene_is_back(a, c->name);
+}
+
 static void settle_case(struct acceptance *a, struct golden_case *c) {
     if (!is_wanted(a, c->name)) return;
-    if (c->status == GOLDEN_ORPHAN && a->args->option[OPTION_PRUNE].given) remove_orphan(a, c);
+    if (c->status == GOLDEN_ORPHAN) settle_orphan(a, c);
     if (c->status == GOLDEN_BROKEN) refuse(a, c, "it is broken");
     if (golden_can_take(c) && c->scene && c->scene_name && c->rule_options) take_case(a, c);
 }
@@ -258,6 +270,16 @@ static void tell_interruption(const struct acceptance *a) {
     free(interruption);
 }
 
+static void tell_counts(const struct acceptance *a) {
+    printf("%zu %staken", a->taken, is_dry(a) ? "would be " : "");
+    if (a->removed > 0) printf(", %zu removed", a->removed);
+    if (a->done > 0) printf(", %zu done already", a->done);
+    if (a->refused > 0) printf(", %zu left as they are", a->refused);
+    printf("\n");
+    if (a->orphans == 1) printf("1 orphan is left: --prune removes it\n");
+    if (a->orphans > 1) printf("%zu orphans are left: --prune removes them\n", a->orphans);
+}
+
 static enum status settle(struct acceptance *a) {
     tell_interruption(a);
     interrupt_defer();
@@ -265,13 +287,7 @@ static enum status settle(struct acceptance *a) {
         settle_case(a, &a->results.cases[i]);
     if (!is_dry(a) && a->taken + a->removed > 0 && !golden_lock_write(&a->lock)) a->trouble = true;
     interrupt_settle();
-    if (!a->args->option[OPTION_QUIET].given) {
-        printf("%zu %staken", a->taken, is_dry(a) ? "would be " : "");
-        if (a->removed > 0) printf(", %zu removed", a->removed);
-        if (a->done > 0) printf(", %zu done already", a->done);
-        if (a->refused > 0) printf(", %zu left as they are", a->refused);
-        printf("\n");
-    }
+    if (!a->args->option[OPTION_QUIET].given) tell_counts(a);
     return a->trouble ? STATUS_TROUBLE : a->refused > 0 ? STATUS_NO : STATUS_YES;
 }
 

@@ -26,7 +26,7 @@ char *golden_detail(const struct golden_case *c) {
                             c->now.bits, c->old.width, c->old.height, c->old.bits);
         return say_text("its pixels are not those of the hash");
     case GOLDEN_NEW: return say_text("there is no golden yet");
-    case GOLDEN_ORPHAN: return say_text("no scene makes it any more");
+    case GOLDEN_ORPHAN: return say_text("no scene makes it any more: `monge accept --prune` removes it");
     default: return NULL;
     }
 }

@@ -26,6 +26,7 @@ struct test {
     struct golden_run run;
     struct golden_teller teller;
     struct golden_results results;
+    bool holds_new; /* what is new is told at the end, when it is known whether it is that of an orphan */
     double begun;
 };
 
@@ -196,7 +197,26 @@ static void end_scene(void *context, size_t index, const char *said) {
     const struct golden_scene *scene = &test->run.scenes[index];
     progress_hide(&test->run.progress);
     fputs(said, stderr);
-    for (size_t i = 0; i < scene->count; i++) golden_tell(&test->teller, &scene->cases[i]);
+    for (size_t i = 0; i < scene->count; i++)
+        if (!test->holds_new || scene->cases[i].status != GOLDEN_NEW)
+            golden_tell(&test->teller, &scene->cases[i]);
+}
+
+/* Whether there are goldens of which the run may find out that they are orphans. */
+static bool may_find_orphans(const struct test *test) {
+    if (!names_all(test)) return false;
+    char **names = golden_names(test->run.folder);
+    const bool any = test->run.lock.count > 0 || (names && *names);
+    golden_names_free(names);
+    return any;
+}
+
+/* What the run has not told: what is new, if that is held, and orphans. */
+static void tell_rest(struct test *test, size_t first_orphan) {
+    const struct golden_results *results = &test->results;
+    for (size_t i = test->holds_new ? 0 : first_orphan; i < results->count; i++)
+        if (i >= first_orphan || results->cases[i].status == GOLDEN_NEW)
+            golden_tell(&test->teller, &results->cases[i]);
 }
 
 /* Of all scenes, in their order; they are the results' from now on. */
@@ -352,6 +372,7 @@ static void tell_interrupted(const struct test *test) {
 static enum status run_test(struct test *test) {
     struct golden_run *run = &test->run;
     const struct batch batch = {run->count, run->jobs, run->jobs > 1, test, run_scene, end_scene};
+    test->holds_new = may_find_orphans(test);
     golden_tell_begin(&test->teller);
     progress_begin(&run->progress, (enum progress_wish)test->args.option[OPTION_PROGRESS].choice,
                    test->teller.quiet, run->count, run->loader.scenes.missing);
@@ -364,8 +385,7 @@ static enum status run_test(struct test *test) {
     if (all) find_places(test);
     const bool whole = all && golden_looks_for_orphans(run, &test->results);
     if (whole) golden_find_orphans(run, &test->results);
-    for (size_t i = first_orphan; i < test->results.count; i++)
-        golden_tell(&test->teller, &test->results.cases[i]);
+    tell_rest(test, first_orphan);
     test->results.seconds = clock_seconds() - test->begun;
     golden_tell_end(&test->teller, &test->results);
     if (whole && test->results.elsewhere == 0) golden_warn_of_unused(run);
