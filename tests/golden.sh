@@ -451,6 +451,23 @@ tolerance 'ssim: 0.9' 0; tolerance 'ssim: 1' 1
 tolerance 'flip: 0.1' 0; tolerance 'flip: 0.0000001' 1
 tolerance 'flip: 0.1, max: 0.001' 1
 tolerance 'flip: 0.1, max: 0.02' 0
+# what was measured beyond it is told, as it is in the metrics
+if have python3; then
+    for limit in 'mae: 0.0000001' 'rmse: 0.0000001' 'psnr: 100' 'ssim: 1' 'flip: 0.0000001'; do
+        tolerance "max: 1, $limit" 1; last="beyond $limit"
+        ok 'the value' [ "$(sed -n 's/^ *beyond: //p' out)" = "$(python3 -c '
+import json, sys
+scene, = [s for s in json.load(open("monge-test/results.json"))["scenes"] if s["name"] == "one"]
+print(sys.argv[1], "%.6g" % scene["metrics"][sys.argv[1]])' "${limit%%:*}")" ]
+    done
+fi
+tolerance 'pixels: 5, mae: 0, psnr: 1' 1; ok 'all that is beyond, alone' grep -qE '^ *beyond: [0-9]+ pixels by over 0, mae [0-9.e-]+$' out
+ok 'in the results, too' grep -qE '"beyond": "[0-9]+ pixels by over 0, mae [0-9.e-]+"}' monge-test/results.json
+tolerance 'pixels: 1%' 1; ok 'of all, as it is allowed' grep -qE '^ *beyond: [0-9.]+% of the pixels by over 0$' out
+tolerance 'max: 0.02' 0; out_lacks 'beyond'; exits 0 test s --golden g --tap --junit junit.xml
+ok 'TAP says what it passes by' grep -qE '^# within its tolerance \(why not\): [0-9]+ of 1200 pixels' out
+ok 'so does JUnit, of it alone' [ "$(grep -cE '^ *<system-out>within its tolerance \(why not\): [0-9]+ of 1200 pixels.*</system-out>$' junit.xml)" -eq 1 ]
+! have python3 || ok 'as XML' python3 -c 'import xml.etree.ElementTree as t; assert len(t.parse("junit.xml").getroot()[0]) == 3'
 rm g/golden.yaml; echo 'tolerance: {flip: 0.1, reason: it says so itself}' >>s/one.yaml
 exits 0 test s --golden g; out_has 'within its tolerance (it says so itself)'
 tolerance 'max: 0.001' 1; says changed one # the settings go before the scene
@@ -643,6 +660,24 @@ sed -i 's/tint: red/tint: blue/' s/one.yaml
 printf '#!/bin/sh\nexec "%s" "$@" -D tint=red\n' "$monge" >old; printf '#!/bin/sh\nexit 1\n' >older; chmod +x old older
 exits 1 test s --golden g --old ./old; says changed one; out_has 'flip'; there monge-test/old/one.png
 exits 1 test s --golden g --old ./older; out_has './older makes no picture of it'; missing monge-test/old/one.png
+# a program that cannot be run at all
+echo >plain; chmod -x plain
+for old in /nonexist ./old/x plain/ . ./plain 'monge --x' nowhere-at-all; do
+    exits 2 test s --golden g --old "$old"; no_out
+    case $old in
+    */nonexist) why='No such file or directory' ;;
+    ./old/x | plain/) why='Not a directory' ;;
+    ./plain) why='Permission denied' ;;
+    *) why='there is no such program in the PATH' ;;
+    esac
+    ok 'the reason, once' [ "$(cat err)" = "monge: --old $old: $why" ]
+done
+exits 2 test s --golden g --old s/; ok 'a folder' [ "$(cat err)" = 'monge: --old s/: Is a directory' ]
+mkdir -p bin; cp old bin/old-monge; last='test --old from the PATH'
+PATH=$work/bin:$PATH "$monge" test s --golden g --old old-monge >out 2>err; says changed one; there monge-test/old/one.png; rm -r bin plain
+cp g/golden.lock lock; sed -i '/^one /s/program=......../program=00000000/' g/golden.lock
+exits 1 test s --golden g; out_has 'the golden is of another program (sources 00000000'; out_has '`--old PROGRAM` shows it, where you have that'
+exits 1 test s --golden g --old "$monge"; out_lacks 'where you have that'; cp lock g/golden.lock
 exits 1 test s --golden g --old "$monge"; says changed one; out_has 'one  its pixels are not those of the hash'
 out_has "$monge does not make the golden's picture of it: the scene has changed, or that is not the program of then"
 if have git; then

@@ -92,6 +92,10 @@ static void put_tolerance(FILE *out, const struct golden_case *c) {
     monge_write_json_string(c->tolerance_text, out);
     fputs(", \"reason\": ", out);
     monge_write_json_string(c->tolerance.reason, out);
+    char *beyond = golden_beyond_text(c);
+    if (beyond) fputs(", \"beyond\": ", out);
+    if (beyond) monge_write_json_string(beyond, out);
+    free(beyond);
     fputs("}", out);
 }
 

@@ -51,6 +51,9 @@ bool golden_is_unchanged(const struct golden_run *run, const struct golden_case 
 void golden_judge(const struct golden_run *run, struct golden_case *c, const struct monge_film *film,
                   bool has_golden);
 
+/* Whether there is a program that --old may mean. False: told. */
+bool golden_check_old(const char *program);
+
 /* The golden's picture where it is a hash, by the program of --old, in the run's folder. False: it is another one, or
  * there is none; the message of the case tells. */
 bool golden_render_old(const struct golden_run *run, struct golden_case *c);

@@ -440,7 +440,8 @@ static bool begin(struct test *test, const struct arguments *args) {
                                .colors = isatty(fileno(out)) && !getenv("NO_COLOR")};
     test->results.folder = say_text("%s", run->folder);
     const enum monge_golden_kind kind = (enum monge_golden_kind)option[OPTION_GOLDEN_KIND].choice;
-    if (!golden_check_folder(run->folder) || !loader_begin(&run->loader, args) ||
+    if (!golden_check_folder(run->folder) || (run->old_program && !golden_check_old(run->old_program)) ||
+        !loader_begin(&run->loader, args) ||
         !golden_settings_read(&run->settings, run->folder, option[OPTION_GOLDEN_KIND].given ? &kind : NULL,
                               &option[OPTION_ROOT], &run->loader))
         return false;
