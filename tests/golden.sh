@@ -351,6 +351,11 @@ scene one.yaml blue
 exits 2 test s/one.yaml one.yaml --golden g; err_has "one.yaml: it is not below \`root\`, $work/s"; out_has '1 golden: 1 same'
 exits 0 test s s/one.yaml --golden g; out_has '3 goldens: 3 same'
 rm one.yaml
+# the name of a golden in place of its scene
+exits 2 test one --golden g; ok 'in a line' [ "$(cat err)" = 'monge: cannot read one: No such file or directory; did you mean `s/one.yaml`?' ]
+exits 2 test 'in/a b%' --golden g; says broken 'a b%'; out_has 'did you mean `s/in/a b%.yaml`?'
+mv g/golden.yaml rules; exits 0 test s --golden g -q; exits 2 test 'in/a b%' --golden g; says broken 'a b%'; out_has 'did you mean `s/in/a b%.yaml`?'
+exits 0 test s --golden g -q; exits 2 test none --golden g; out_lacks 'did you mean'; mv rules g/golden.yaml
 for root in '' --root=s; do exits 2 test one.yaml --golden g $root; err_has 'cannot read one.yaml: No such file or directory'; err_lacks 'not below'; done
 
 # Many orphans among what is there.
@@ -1093,7 +1098,14 @@ done
 fresh
 exits 1 test s --golden "$work/g" -q
 (mkdir -p away; cd away; "$monge" accept one --golden "$work/g" --output ../monge-test >out 2>err); cp away/err err
-err_has 'one is left as it is: its scene cannot be read from here'
+ok 'the folder is told' [ "$(cat err)" = "monge: one is left as it is: its scene cannot be read from here: run it from $work, where the test ran" ]
+exits 1 test s --golden g -q; mkdir -p away; sums g >before
+(cd away; "$monge" accept --golden ../g --output ../monge-test >out 2>err; echo $? >status); cp away/err err; cp away/out out; last='accept from another folder'
+ok 'it is refused' [ "$(cat away/status)" -eq 2 ]; ok 'for what is true' [ "$(cat err)" = "monge: ../monge-test/results.json: run it from $work, where the test ran" ]; no_out
+mkdir -p away/g; (cd away; "$monge" accept --golden g --output ../monge-test >out 2>err); cp away/err err
+ok 'goldens called so there are others' [ "$(cat err)" = "monge: ../monge-test/results.json: the last run was with the goldens of $work/g" ]
+ok 'nothing is taken' [ "$(sums g)" = "$(cat before)" ]
+ln -sfn . here; (cd here; "$monge" accept --golden ./g -n >out 2>err); out_has '3 would be taken'; no_err; rm -r here away
 exits 1 test s --golden g -q; rm monge-test/new/one.png
 exits 1 accept --golden g; err_has 'one is left as it is: its new picture cannot be read any more'
 exits 1 test s --golden g -q

@@ -28,6 +28,8 @@ struct acceptance {
     size_t scene_count;
     size_t taken, removed, refused, done; /* done: before, already */
     size_t orphans;                       /* that --prune would remove */
+    char *
+        far; /* owned: why scenes cannot be read, where the run was in another folder; NULL: it was in this one */
     char *sealed; /* owned: the folder of which was told last that nothing can be written there; NULL: none */
     bool trouble;
 };
@@ -108,7 +110,7 @@ static const char *find_obstacle(const struct acceptance *a, const struct golden
     else if (!is_of_run(c, picture, diag))
         why = "its new picture is not that of the run";
     else if (access(c->scene, R_OK) != 0)
-        why = "its scene cannot be read from here";
+        why = a->far ? a->far : "its scene cannot be read from here";
     else if (text_has_changed(a, c, picture, diag))
         why = "the scene has changed since the run";
     else if (options_have_changed(a, c))
@@ -293,6 +295,27 @@ static enum status settle(struct acceptance *a) {
 
 /* ---- All of it ---- */
 
+/* Paths of the run count from where it was. */
+static void find_far(struct acceptance *a) {
+    const char *from = a->results.from;
+    if (!from || !path_is_folder(from) || golden_is_same_file(from, ".")) return;
+    a->far = say_text("its scene cannot be read from here: run it from %s, where the test ran", from);
+}
+
+/* Whether the run was with these goldens: from another folder only where its path to them was from the root. False: told. */
+static bool check_goldens(const struct acceptance *a, const char *path) {
+    const char *folder = a->results.folder;
+    const bool other_place = a->far && *folder != '/';
+    char *goldens = other_place ? path_below(a->results.from, folder, "") : say_text("%s", folder);
+    const bool same = golden_is_same_file(goldens, a->folder);
+    if (!same)
+        say_error("%s: the last run was with the goldens of %s", path, goldens);
+    else if (other_place)
+        say_error("%s: run it from %s, where the test ran", path, a->results.from);
+    free(goldens);
+    return same && !other_place;
+}
+
 static bool read_run(struct acceptance *a) {
     char *path = path_below(a->output, "results.json", "");
     const enum golden_reading reading = golden_results_read(&a->results, path);
@@ -301,9 +324,9 @@ static bool read_run(struct acceptance *a) {
     if (good && !a->results.folder) {
         say_error("%s is not there: `monge test` makes it, with --output %s", path, a->output);
         good = false;
-    } else if (good && !golden_is_same_file(a->results.folder, a->folder)) {
-        say_error("%s: the last run was with the goldens of %s", path, a->results.folder);
-        good = false;
+    } else if (good) {
+        find_far(a);
+        good = check_goldens(a, path);
     }
     free(path);
     return good && prepare_cases(a);
@@ -328,6 +351,7 @@ enum status accept_command(const struct arguments *args) {
     const enum status status = begin(&a) ? settle(&a) : STATUS_TROUBLE;
     free(a.scenes);
     free(a.sealed);
+    free(a.far);
     golden_results_free(&a.results);
     golden_lock_free(&a.lock);
     golden_settings_free(&a.settings);

@@ -36,6 +36,10 @@ struct golden_run {
  * behind. */
 void golden_scene_run(struct golden_run *run, struct golden_scene *scene);
 
+/* The scene that is meant by the name of its golden in place of a path: one that is there, below the root or, without a root,
+ * of the run before. To be freed; NULL: none. */
+char *golden_find_meant(const struct golden_run *run, const char *name);
+
 /* Whether goldens of this kind have pixels, so that a difference can be within a tolerance: hashes have with --old alone. */
 bool golden_knows_tolerance(const struct golden_run *run, enum monge_golden_kind kind);
 

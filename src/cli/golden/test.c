@@ -34,17 +34,6 @@ static bool wants(const struct test *test, enum option_id option) { return test-
 
 /* ---- Scenes ---- */
 
-/* The root as one would name it from here, where it is below. To be freed. */
-static char *root_from_here(const char *root) {
-    char *here = getcwd(NULL, 0);
-    const size_t length = here ? strlen(here) : 0;
-    const bool below =
-        length > 1 && strncmp(root, here, length) == 0 && (root[length] == '/' || !root[length]);
-    char *path = !below ? say_text("%s", root) : say_text("%s", root[length] ? root + length + 1 : ".");
-    free(here);
-    return path;
-}
-
 /* Without operands, all that is below the root. */
 static bool find_scenes(struct test *test) {
     struct golden_run *run = &test->run;
@@ -60,7 +49,7 @@ static bool find_scenes(struct test *test) {
     }
     if (test->args.count == 0) {
         struct arguments args = test->args;
-        char *root = root_from_here(run->settings.root);
+        char *root = golden_settings_root(&run->settings);
         args.operands = &root;
         args.count = 1;
         scenes_find(&run->loader.scenes, &args, SCENES_ALONE, &run->loader.limits.load, &run->loader.report);
@@ -109,6 +98,14 @@ static bool check_scenes(struct golden_run *run) {
     return true;
 }
 
+static void say_unread(const struct golden_run *run, const char *path) {
+    const char *why = strerror(errno);
+    char *meant = golden_find_meant(run, path);
+    say_error("cannot read %s: %s%s%s%s", path, why, meant ? "; did you mean `" : "", meant ? meant : "",
+              meant ? "`?" : "");
+    free(meant);
+}
+
 static bool name_scenes(struct golden_run *run) {
     const struct scenes *found = &run->loader.scenes;
     run->scenes = calloc(found->count + 1, sizeof *run->scenes);
@@ -121,7 +118,7 @@ static bool name_scenes(struct golden_run *run) {
             continue;
         }
         if (access(found->all[i].path, F_OK) != 0)
-            say_error("cannot read %s: %s", found->all[i].path, strerror(errno));
+            say_unread(run, found->all[i].path);
         else
             say_error("%s: it is not below `root`, %s", found->all[i].path, run->settings.root);
         run->loader.scenes.status = STATUS_TROUBLE;
@@ -148,7 +145,7 @@ static void find_places(struct test *test) {
     struct golden_places *places = &test->results.places;
     const char *root = test->run.settings.root;
     if (!names_all(test)) return;
-    if (root) places->root = root_from_here(root);
+    if (root) places->root = golden_settings_root(&test->run.settings);
     for (size_t i = 0; i < test->args.count && !root; i++) golden_places_add(places, test->args.operands[i]);
 }
 
@@ -439,6 +436,7 @@ static bool begin(struct test *test, const struct arguments *args) {
                                .quiet = option[OPTION_QUIET].given || (out == stderr && for_programs),
                                .colors = isatty(fileno(out)) && !getenv("NO_COLOR")};
     test->results.folder = say_text("%s", run->folder);
+    test->results.from = getcwd(NULL, 0);
     const enum monge_golden_kind kind = (enum monge_golden_kind)option[OPTION_GOLDEN_KIND].choice;
     if (!golden_check_folder(run->folder) || (run->old_program && !golden_check_old(run->old_program)) ||
         !loader_begin(&run->loader, args) ||
