@@ -110,11 +110,26 @@ static void read_rules(struct settings_file *file, struct diagnostics *diag,
         .root = object_text(object, KEY_GOLDENS_ROOT), .kind = kind, .rules = rules, .count = list.count};
 }
 
+/* Nothing but blanks, comments, and `---` at the beginning of a line: that is as `{}`, without rules. */
+static bool is_empty(const struct source *source) {
+    const char *at = source->text, *end = at + source->size;
+    bool comment = false, line_begins = true;
+    for (; at < end; at++) {
+        if (line_begins && end - at >= 3 && memcmp(at, "---", 3) == 0) at += 3;
+        if (at == end) break;
+        line_begins = *at == '\n' || *at == '\r';
+        comment = !line_begins && (comment || *at == '#');
+        if (!comment && !line_begins && *at != ' ' && *at != '\t') return false;
+    }
+    return true;
+}
+
 static bool read_settings(struct settings_file *file, const char *path, const struct monge_limits *limits,
                           struct diagnostics *diag) {
     const unsigned errors = diag->errors, failures = diag->failures;
     const struct source *source = file_read(&file->memory.nodes, diag, path, limits->file_bytes);
     if (!source) return false;
+    if (is_empty(source)) return true;
     const struct lang_input input = {.source = source, .path = path, .limits = face_lang_limits(limits)};
     const struct object_value *object = lang_read_goldens(&file->memory, diag, &input);
     if (object) read_rules(file, diag, object);

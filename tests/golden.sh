@@ -151,8 +151,14 @@ for kind in png hash both; do
     exits 1 test s --golden g; says orphan two; out_has 'no scene makes it any more'
     exits 0 test s/one.yaml --golden g; out_lacks orphan
     exits 1 test s --golden g -q
-    exits 0 accept --golden g; out_has '0 taken'
-    exits 0 accept --golden g --prune; out_has 'removed two'; missing g/two.png
+    out_has '`monge accept --prune` removes it'
+    exits 0 accept --golden g; ok 'the orphan is counted' [ "$(cat out)" = $'0 taken\n1 orphan is left: --prune removes it' ]
+    exits 0 accept --golden g -q; no_out; exits 0 accept one --golden g; out_lacks orphan; exits 0 accept two --golden g -n; out_has '1 orphan is left'
+    mv 's/in/a b%.yaml' kept.yaml; exits 1 test s --golden g -q; out_has '`monge accept --prune` removes it'
+    exits 0 accept --golden g; out_has '2 orphans are left: --prune removes them'; mv kept.yaml 's/in/a b%.yaml'
+    exits 0 accept --golden g; out_has '1 orphan is left'; exits 1 test s --golden g
+    exits 0 accept --golden g --prune; out_has 'removed two'; out_lacks 'left'; missing g/two.png
+    exits 0 accept --golden g; out_lacks orphan
     exits 0 test s --golden g; out_has '2 goldens: 2 same'
     echo 'scene: [{sphre: {}}]' >s/one.yaml
     exits 1 test s --golden g; says broken one; out_has 'did you mean `sphere`?'; out_lacks orphan
@@ -260,7 +266,7 @@ lock 'x 1x1x8 pixels=%s  text=%s\n' $hash $hash; err_has 'each once'
 lock 'x 1x1x8 pixels=%s' $hash; err_has 'the line is cut off'
 lock 'x 1x1x8 pix\0els=%s\n' $hash; err_has 'NUL'
 lock 'x 1x1x8 pixels=%s options=\x01\n' $hash; err_has 'must be written as %XX'
-lock 'one 1x1x8 pixels=%s\n' $hash; err_has 'two lines for one'
+lock 'one 1x1x8 pixels=%s\n' $hash; err_has 'g/golden.lock:5: a second line for one, as line 3 is: keep one of them'
 cp lock g/golden.lock; exits 0 test s --golden g
 
 printf 'a%%0Ab%%1B[31m%%7F 1x1x8 pixels=%s\n' $hash >>g/golden.lock; exits 1 test s --golden g
@@ -287,6 +293,10 @@ wrong 'x.yaml' 'expected options alone, found `x.yaml`'
 wrong "\"-D 'a=1\"" 'a quote is not closed'
 wrong '--shadow 0.5 --no-shadows' 'give one of them'
 fresh 'rules: [{scenes: one, tolerance: {max: 0.1}}]'; exits 2 test s --golden g; err_has 'a tolerance needs the key `reason`'
+# one without rules
+for empty in '' '# kind: hash' '   # a' $'\n\n# a\n' '---' '--- # a' $'# a\r\n---\n\t'; do fresh "$empty"; exits 1 test s --golden g; no_err; says new one; done
+fresh; : >g/golden.yaml; exits 1 test s --golden g; no_err; exits 0 accept --golden g; there g/one.png
+for other in '-' '- # a' '--' 'a' '# a'$'\n''a'; do fresh "$other"; exits 2 test s --golden g; err_has 'g/golden.yaml:'; done
 fresh 'root: ../nowhere'; exits 2 test s --golden g; err_has '`root`: g/../nowhere: No such file'
 fresh 'rules: [{scenes: one, options: --frames 2}]'; exits 1 test s --golden g; says broken one; out_has 'has no animation'
 fresh 'rules: [{scenes: one, options: --frames all}]'; exits 1 test s --golden g; says new one; out_has 'monge render s/one.yaml -o one.png'
@@ -341,6 +351,11 @@ scene one.yaml blue
 exits 2 test s/one.yaml one.yaml --golden g; err_has "one.yaml: it is not below \`root\`, $work/s"; out_has '1 golden: 1 same'
 exits 0 test s s/one.yaml --golden g; out_has '3 goldens: 3 same'
 rm one.yaml
+# the name of a golden in place of its scene
+exits 2 test one --golden g; ok 'in a line' [ "$(cat err)" = 'monge: cannot read one: No such file or directory; did you mean `s/one.yaml`?' ]
+exits 2 test 'in/a b%' --golden g; says broken 'a b%'; out_has 'did you mean `s/in/a b%.yaml`?'
+mv g/golden.yaml rules; exits 0 test s --golden g -q; exits 2 test 'in/a b%' --golden g; says broken 'a b%'; out_has 'did you mean `s/in/a b%.yaml`?'
+exits 0 test s --golden g -q; exits 2 test none --golden g; out_lacks 'did you mean'; mv rules g/golden.yaml
 for root in '' --root=s; do exits 2 test one.yaml --golden g $root; err_has 'cannot read one.yaml: No such file or directory'; err_lacks 'not below'; done
 
 # Many orphans among what is there.
@@ -441,6 +456,23 @@ tolerance 'ssim: 0.9' 0; tolerance 'ssim: 1' 1
 tolerance 'flip: 0.1' 0; tolerance 'flip: 0.0000001' 1
 tolerance 'flip: 0.1, max: 0.001' 1
 tolerance 'flip: 0.1, max: 0.02' 0
+# what was measured beyond it is told, as it is in the metrics
+if have python3; then
+    for limit in 'mae: 0.0000001' 'rmse: 0.0000001' 'psnr: 100' 'ssim: 1' 'flip: 0.0000001'; do
+        tolerance "max: 1, $limit" 1; last="beyond $limit"
+        ok 'the value' [ "$(sed -n 's/^ *beyond: //p' out)" = "$(python3 -c '
+import json, sys
+scene, = [s for s in json.load(open("monge-test/results.json"))["scenes"] if s["name"] == "one"]
+print(sys.argv[1], "%.6g" % scene["metrics"][sys.argv[1]])' "${limit%%:*}")" ]
+    done
+fi
+tolerance 'pixels: 5, mae: 0, psnr: 1' 1; ok 'all that is beyond, alone' grep -qE '^ *beyond: [0-9]+ pixels by over 0, mae [0-9.e-]+$' out
+ok 'in the results, too' grep -qE '"beyond": "[0-9]+ pixels by over 0, mae [0-9.e-]+"}' monge-test/results.json
+tolerance 'pixels: 1%' 1; ok 'of all, as it is allowed' grep -qE '^ *beyond: [0-9.]+% of the pixels by over 0$' out
+tolerance 'max: 0.02' 0; out_lacks 'beyond'; exits 0 test s --golden g --tap --junit junit.xml
+ok 'TAP says what it passes by' grep -qE '^# within its tolerance \(why not\): [0-9]+ of 1200 pixels' out
+ok 'so does JUnit, of it alone' [ "$(grep -cE '^ *<system-out>within its tolerance \(why not\): [0-9]+ of 1200 pixels.*</system-out>$' junit.xml)" -eq 1 ]
+! have python3 || ok 'as XML' python3 -c 'import xml.etree.ElementTree as t; assert len(t.parse("junit.xml").getroot()[0]) == 3'
 rm g/golden.yaml; echo 'tolerance: {flip: 0.1, reason: it says so itself}' >>s/one.yaml
 exits 0 test s --golden g; out_has 'within its tolerance (it says so itself)'
 tolerance 'max: 0.001' 1; says changed one # the settings go before the scene
@@ -467,8 +499,13 @@ for kind in png hash both; do
     fresh "kind: $kind"; cp s/two.yaml s/twin.yaml; exits 0 test s --golden g --update-only-failed -q
     mv s/one.yaml s/uno.yaml; rm s/twin.yaml; scene s/three.yaml blue
     exits 1 test s --golden g --junit junit.xml; says orphan one; says new uno; says new three; says orphan twin
-    out_has 'its picture is that of uno, which is new: was the scene renamed?'
-    ok 'of none but that' [ "$(grep -c renamed out)" -eq 1 ]
+    for tap in '' --tap; do
+        exits 1 test s --golden g $tap
+        out_has 'its picture is that of uno, which is new: was the scene renamed?'
+        out_has 'its picture is that of the orphan one: was the scene renamed?'
+        ok 'of none but these' [ "$(grep -c renamed out)" -eq 2 ]
+    done
+    exits 1 test s --golden g --junit junit.xml
     for file in junit.xml monge-test/results.json; do
         ok "$file has it of both" [ "$(grep -o 'its picture is that of the orphan one: was the scene renamed?\|its picture is that of uno, which is new: was the scene renamed?' $file | sort -u | wc -l)" -eq 2 ]
     done
@@ -577,6 +614,11 @@ out_has 'object "ball" (s/one.yaml:5): shading changed, geometry equal'
 out_has 'object "lid" (s/one.yaml:8): geometry moved'
 out_has 'object "floor" (s/one.yaml:11): shadow changed'
 exits 0 accept --golden g; exits 0 test s --golden g
+# what is gone has a place in the scene of then alone
+cp s/one.yaml kept; sed -i '/^  - box/,/translate/d; s/^lights/\n\nlights/' s/one.yaml
+exits 1 test s --golden g --json j.json --report r; out_has 'object "lid" (was at s/one.yaml:8): disappeared'; out_has 'object "floor" (s/one.yaml:'
+for file in j.json r/index.html; do ok "$file has that place" grep -qF 'object \"lid\" (was at s/one.yaml:8): disappeared' $file; done
+mv kept s/one.yaml; rm -r j.json r
 # another camera: it alone, and no object is accused
 sed -i 's/eye: \[0, 3, 8\]/eye: [0, 3, 7]/' s/one.yaml
 exits 1 test s --golden g --json j.json --report r
@@ -623,6 +665,24 @@ sed -i 's/tint: red/tint: blue/' s/one.yaml
 printf '#!/bin/sh\nexec "%s" "$@" -D tint=red\n' "$monge" >old; printf '#!/bin/sh\nexit 1\n' >older; chmod +x old older
 exits 1 test s --golden g --old ./old; says changed one; out_has 'flip'; there monge-test/old/one.png
 exits 1 test s --golden g --old ./older; out_has './older makes no picture of it'; missing monge-test/old/one.png
+# a program that cannot be run at all
+echo >plain; chmod -x plain
+for old in /nonexist ./old/x plain/ . ./plain 'monge --x' nowhere-at-all; do
+    exits 2 test s --golden g --old "$old"; no_out
+    case $old in
+    */nonexist) why='No such file or directory' ;;
+    ./old/x | plain/) why='Not a directory' ;;
+    ./plain) why='Permission denied' ;;
+    *) why='there is no such program in the PATH' ;;
+    esac
+    ok 'the reason, once' [ "$(cat err)" = "monge: --old $old: $why" ]
+done
+exits 2 test s --golden g --old s/; ok 'a folder' [ "$(cat err)" = 'monge: --old s/: Is a directory' ]
+mkdir -p bin; cp old bin/old-monge; last='test --old from the PATH'
+PATH=$work/bin:$PATH "$monge" test s --golden g --old old-monge >out 2>err; says changed one; there monge-test/old/one.png; rm -r bin plain
+cp g/golden.lock lock; sed -i '/^one /s/program=......../program=00000000/' g/golden.lock
+exits 1 test s --golden g; out_has 'the golden is of another program (sources 00000000'; out_has '`--old PROGRAM` shows it, where you have that'
+exits 1 test s --golden g --old "$monge"; out_lacks 'where you have that'; cp lock g/golden.lock
 exits 1 test s --golden g --old "$monge"; says changed one; out_has 'one  its pixels are not those of the hash'
 out_has "$monge does not make the golden's picture of it: the scene has changed, or that is not the program of then"
 if have git; then
@@ -759,6 +819,8 @@ if have git; then
     scene s/one.yaml lime; git add s; commit 1 'as it is in the folder'; err_lacks 'what is staged'
     scene s/one.yaml blue; commit 1 'a change that is staged alone'; err_has 'pre-commit: this is of what is staged; files in the folder differ from that: `git add` stages them'
     exits 0 test --golden goldens -q; git add s
+    git rm -qf s/two.yaml; commit 1 'a scene that is gone'; err_has '`'"$monge"' accept --golden goldens --prune` takes what is meant'
+    exits 1 test --golden goldens -q; exits 0 accept --golden goldens --prune; git add goldens; commit 0 'its golden, too'
     last='git commit'; MONGE=no/monge git commit --allow-empty -qm x >out 2>err; ok 'no program' [ $? -eq 1 ]
     ok 'is told in a line' [ "$(cat err)" = 'pre-commit: there is no program no/monge: MONGE=/path/to/monge git commit, or write that path into .git/hooks/pre-commit' ]
     rm -rf .git
@@ -820,6 +882,26 @@ done
 mkdir -p run/new run/old
 for folder in run/new run/old/ run; do exits 2 test s --golden $folder --output run; err_has 'would write into the folder of the goldens'; done
 ok 'the goldens are as before' [ "$(sums g)" = "$(cat before)" ]; rm -rf link run
+for folder in g/run g/in/../run ./g/a/b "$work/g/run"; do
+    exits 2 test s --golden g --output "$folder"; err_has "--output $folder would write into the folder of the goldens, g"; no_out
+    exits 2 test s --golden g --report "$folder"; err_has "--report $folder would write into the folder of the goldens, g"; no_out
+done
+exits 2 test s --golden g-too/new/x --output g-too; err_has 'would write into the folder of the goldens'
+exits 0 test s --golden g --output g-too -q; rm -rf g-too # another folder, though its name begins so
+ok 'the goldens are as before' [ "$(sums g)" = "$(cat before)" ]
+# documents over what is read, or over each other
+ln s/two.yaml hard; ln -s g/one.png soft; echo 'image: {}' >more.yml; sums s >scenes; rm -rf monge-test
+for option in json junit; do
+    refuses() { exits 2 test s --golden g --$option "$1"; ok 'a line' [ "$(cat err)" = "monge: --$option $1$2" ]; no_out; missing monge-test; }
+    for file in g/golden.yaml g/one.png g/golden.lock g/new.json soft; do refuses $file ' would write into the folder of the goldens, g'; done
+    refuses hard ' would write over a scene of the run'; refuses s/two.yaml ' would write over a scene of the run'
+    for file in more.yml s/none.YAML x.png x.lock; do refuses $file ': it is called as scenes or goldens are, and would be none'; done
+done
+exits 2 test s --golden g --json j --junit ./j; err_has '--json and --junit would write the same file, ./j'; missing j
+exits 2 test s --golden g --junit monge-test/results.json; err_has '--output and --junit would write the same file'
+exits 2 test s --golden g --report r --json r/index.html; err_has '--report and --json would write the same file'
+exits 0 test s --golden g --json monge-test/results.json --junit j -q; exits 0 test s --golden g --json /dev/null --junit /dev/null -q
+ok 'nothing that is read is touched' [ "$(sums g; sums s)" = "$(cat before scenes)" ]; rm -f hard soft more.yml j
 exits 2 test s --golden g --report ./g; err_has '--report ./g would write into the folder of the goldens, g'; missing g/index.html
 exits 2 test s --golden fresh --output new/../fresh; err_has 'would write into'; missing fresh; missing new
 exits 1 test s --golden fresh --output /fresh/../$work/./away/../fresh.2 -q; rm -rf fresh.2
@@ -1016,7 +1098,14 @@ done
 fresh
 exits 1 test s --golden "$work/g" -q
 (mkdir -p away; cd away; "$monge" accept one --golden "$work/g" --output ../monge-test >out 2>err); cp away/err err
-err_has 'one is left as it is: its scene cannot be read from here'
+ok 'the folder is told' [ "$(cat err)" = "monge: one is left as it is: its scene cannot be read from here: run it from $work, where the test ran" ]
+exits 1 test s --golden g -q; mkdir -p away; sums g >before
+(cd away; "$monge" accept --golden ../g --output ../monge-test >out 2>err; echo $? >status); cp away/err err; cp away/out out; last='accept from another folder'
+ok 'it is refused' [ "$(cat away/status)" -eq 2 ]; ok 'for what is true' [ "$(cat err)" = "monge: ../monge-test/results.json: run it from $work, where the test ran" ]; no_out
+mkdir -p away/g; (cd away; "$monge" accept --golden g --output ../monge-test >out 2>err); cp away/err err
+ok 'goldens called so there are others' [ "$(cat err)" = "monge: ../monge-test/results.json: the last run was with the goldens of $work/g" ]
+ok 'nothing is taken' [ "$(sums g)" = "$(cat before)" ]
+ln -sfn . here; (cd here; "$monge" accept --golden ./g -n >out 2>err); out_has '3 would be taken'; no_err; rm -r here away
 exits 1 test s --golden g -q; rm monge-test/new/one.png
 exits 1 accept --golden g; err_has 'one is left as it is: its new picture cannot be read any more'
 exits 1 test s --golden g -q

@@ -554,9 +554,10 @@ size_t monge_change_text(const struct monge_change *change, char *text, size_t s
     if (!o) return (size_t)snprintf(text, size, "background: colour changed");
     const char *before = o->name ? "object \"" : o->kind, *name = o->name ? o->name : "",
                *after = o->name ? "\"" : "";
-    const int length =
-        o->file ? snprintf(text, size, "%s%s%s (%s:%u): %s", before, name, after, o->file, o->line, words)
-                : snprintf(text, size, "%s%s%s: %s", before, name, after, words);
+    const char *was = change->kind == MONGE_CHANGE_DISAPPEARED ? "was at " : ""; /* the scene of then */
+    const int length = o->file ? snprintf(text, size, "%s%s%s (%s%s:%u): %s", before, name, after, was,
+                                          o->file, o->line, words)
+                               : snprintf(text, size, "%s%s%s: %s", before, name, after, words);
     if (size > 0) make_harmless(text);
     return (size_t)length;
 }

@@ -105,7 +105,7 @@ static struct row rows[] = {
      "object \"floor\" (scene.yaml:4): shadow changed\n",
      0},
     {"one has gone", HEAD SCENE FLOOR BALL BOX, HEAD SCENE FLOOR BOX,
-     "object \"ball\" (scene.yaml:5): disappeared\n"
+     "object \"ball\" (was at scene.yaml:5): disappeared\n"
      "object \"floor\" (scene.yaml:4): shadow changed\n",
      0},
     {"the light has moved", HEAD SCENE FLOOR BALL,
@@ -162,7 +162,7 @@ static struct row rows[] = {
      HEAD SCENE "  - {name: ball, sphere: {center: [-2, 1, 0], radius: 0.7}}\n"
                 "  - {name: ball, sphere: {center: [0, 1, 0], radius: 0.7}}\n",
      HEAD SCENE "  - {name: ball, sphere: {center: [0, 1, 0], radius: 0.7}}\n",
-     "object \"ball\" (scene.yaml:4): disappeared\n", 0},
+     "object \"ball\" (was at scene.yaml:4): disappeared\n", 0},
     {"two have changed places",
      HEAD SCENE "  - {name: a, sphere: {center: [-2, 1, 0], radius: 0.7}, material: {ambient: red}}\n"
                 "  - {name: b, sphere: {center: [2, 1, 0], radius: 0.7}, material: {ambient: blue}}\n",

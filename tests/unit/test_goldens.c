@@ -87,6 +87,19 @@ static void what_is_left_out(void **state) {
     monge_goldens_free(g);
 }
 
+static void one_that_is_empty(void **state) {
+    (void)state;
+    static const char *const texts[] = {"",    "\n",         "# kind: hash", " \t# a\r\n\n# b\n",
+                                        "---", "---\n# a\n", "# a\n---\n"};
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
+        struct monge_goldens *g = read_goldens(texts[i], NULL, NULL);
+        assert_null(g->root);
+        assert_int_equal(g->kind, MONGE_GOLDEN_PNG);
+        assert_int_equal(g->count, 0);
+        monge_goldens_free(g);
+    }
+}
+
 static void mistakes(void **state) {
     (void)state;
     static const char *const rows[][3] = {
@@ -106,7 +119,8 @@ static void mistakes(void **state) {
         {"rules: [{scenes: a, tolerance: {pixels: -1, reason: r}}]\n", "not-a-number", "found `-1`"},
         {"- a\n", "not-a-mapping", "the file golden.yaml"},
         {"rules: [\n", "not-yaml", "a value is missing"},
-        {"", "", ""},
+        {"- a\n", "not-a-mapping", "expected"},
+        {"--- a\n", "not-a-mapping", "expected"},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
         assert_null(read_goldens(rows[i][0], rows[i][1], rows[i][2]));
@@ -163,9 +177,9 @@ static void a_document(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(all_of_a_file), cmocka_unit_test(what_is_left_out),
-        cmocka_unit_test(mistakes),      cmocka_unit_test(a_scene_has_a_tolerance),
-        cmocka_unit_test(a_document),
+        cmocka_unit_test(all_of_a_file),           cmocka_unit_test(what_is_left_out),
+        cmocka_unit_test(one_that_is_empty),       cmocka_unit_test(mistakes),
+        cmocka_unit_test(a_scene_has_a_tolerance), cmocka_unit_test(a_document),
     };
     return cmocka_run_group_tests(tests, make_file, remove_file);
 }

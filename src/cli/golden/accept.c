@@ -4,13 +4,13 @@
 #include <fnmatch.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include "cli/golden/folder.h"
 #include "cli/golden/results.h"
 #include "cli/golden/settings.h"
 #include "cli/golden/take.h"
+#include "cli/golden/targets.h"
 #include "cli/interrupt.h"
 #include "cli/paths.h"
 #include "cli/say.h"
@@ -27,6 +27,9 @@ struct acceptance {
     const char **scenes; /* owned: names of the scenes of the run, sorted */
     size_t scene_count;
     size_t taken, removed, refused, done; /* done: before, already */
+    size_t orphans;                       /* that --prune would remove */
+    char *
+        far; /* owned: why scenes cannot be read, where the run was in another folder; NULL: it was in this one */
     char *sealed; /* owned: the folder of which was told last that nothing can be written there; NULL: none */
     bool trouble;
 };
@@ -107,7 +110,7 @@ static const char *find_obstacle(const struct acceptance *a, const struct golden
     else if (!is_of_run(c, picture, diag))
         why = "its new picture is not that of the run";
     else if (access(c->scene, R_OK) != 0)
-        why = "its scene cannot be read from here";
+        why = a->far ? a->far : "its scene cannot be read from here";
     else if (text_has_changed(a, c, picture, diag))
         why = "the scene has changed since the run";
     else if (options_have_changed(a, c))
@@ -213,10 +216,12 @@ static bool scene_is_back(struct acceptance *a, const char *name) {
     return back;
 }
 
+static bool is_gone(const struct acceptance *a, const struct golden_case *c) {
+    return !golden_lock_find(&a->lock, c->name) && !(c->golden_path && path_is_file(c->golden_path));
+}
+
 static void remove_orphan(struct acceptance *a, struct golden_case *c) {
-    free(c->golden_path);
-    c->golden_path = c->kind == MONGE_GOLDEN_HASH ? NULL : path_below(a->folder, c->name, ".png");
-    if (!golden_lock_find(&a->lock, c->name) && !(c->golden_path && path_is_file(c->golden_path)))
+    if (is_gone(a, c))
         pass_by(a, c, "removed");
     else if (scene_is_back(a, c->name))
         refuse(a, c, "its scene is there again");
@@ -228,9 +233,18 @@ static void remove_orphan(struct acceptance *a, struct golden_case *c) {
     }
 }
 
+static void settle_orphan(struct acceptance *a, struct golden_case *c) {
+    free(c->golden_path);
+    c->golden_path = c->kind == MONGE_GOLDEN_HASH ? NULL : path_below(a->folder, c->name, ".png");
+    if (a->args->option[OPTION_PRUNE].given)
+        remove_orphan(a, c);
+    else
+        a->orphans += !is_gone(a, c) && !scene_is_back(a, c->name);
+}
+
 static void settle_case(struct acceptance *a, struct golden_case *c) {
     if (!is_wanted(a, c->name)) return;
-    if (c->status == GOLDEN_ORPHAN && a->args->option[OPTION_PRUNE].given) remove_orphan(a, c);
+    if (c->status == GOLDEN_ORPHAN) settle_orphan(a, c);
     if (c->status == GOLDEN_BROKEN) refuse(a, c, "it is broken");
     if (golden_can_take(c) && c->scene && c->scene_name && c->rule_options) take_case(a, c);
 }
@@ -258,6 +272,16 @@ static void tell_interruption(const struct acceptance *a) {
     free(interruption);
 }
 
+static void tell_counts(const struct acceptance *a) {
+    printf("%zu %staken", a->taken, is_dry(a) ? "would be " : "");
+    if (a->removed > 0) printf(", %zu removed", a->removed);
+    if (a->done > 0) printf(", %zu done already", a->done);
+    if (a->refused > 0) printf(", %zu left as they are", a->refused);
+    printf("\n");
+    if (a->orphans == 1) printf("1 orphan is left: --prune removes it\n");
+    if (a->orphans > 1) printf("%zu orphans are left: --prune removes them\n", a->orphans);
+}
+
 static enum status settle(struct acceptance *a) {
     tell_interruption(a);
     interrupt_defer();
@@ -265,22 +289,31 @@ static enum status settle(struct acceptance *a) {
         settle_case(a, &a->results.cases[i]);
     if (!is_dry(a) && a->taken + a->removed > 0 && !golden_lock_write(&a->lock)) a->trouble = true;
     interrupt_settle();
-    if (!a->args->option[OPTION_QUIET].given) {
-        printf("%zu %staken", a->taken, is_dry(a) ? "would be " : "");
-        if (a->removed > 0) printf(", %zu removed", a->removed);
-        if (a->done > 0) printf(", %zu done already", a->done);
-        if (a->refused > 0) printf(", %zu left as they are", a->refused);
-        printf("\n");
-    }
+    if (!a->args->option[OPTION_QUIET].given) tell_counts(a);
     return a->trouble ? STATUS_TROUBLE : a->refused > 0 ? STATUS_NO : STATUS_YES;
 }
 
 /* ---- All of it ---- */
 
-static bool is_same_folder(const char *a, const char *b) {
-    struct stat p, q;
-    return strcmp(a, b) == 0 ||
-           (stat(a, &p) == 0 && stat(b, &q) == 0 && p.st_dev == q.st_dev && p.st_ino == q.st_ino);
+/* Paths of the run count from where it was. */
+static void find_far(struct acceptance *a) {
+    const char *from = a->results.from;
+    if (!from || !path_is_folder(from) || golden_is_same_file(from, ".")) return;
+    a->far = say_text("its scene cannot be read from here: run it from %s, where the test ran", from);
+}
+
+/* Whether the run was with these goldens: from another folder only where its path to them was from the root. False: told. */
+static bool check_goldens(const struct acceptance *a, const char *path) {
+    const char *folder = a->results.folder;
+    const bool other_place = a->far && *folder != '/';
+    char *goldens = other_place ? path_below(a->results.from, folder, "") : say_text("%s", folder);
+    const bool same = golden_is_same_file(goldens, a->folder);
+    if (!same)
+        say_error("%s: the last run was with the goldens of %s", path, goldens);
+    else if (other_place)
+        say_error("%s: run it from %s, where the test ran", path, a->results.from);
+    free(goldens);
+    return same && !other_place;
 }
 
 static bool read_run(struct acceptance *a) {
@@ -291,9 +324,9 @@ static bool read_run(struct acceptance *a) {
     if (good && !a->results.folder) {
         say_error("%s is not there: `monge test` makes it, with --output %s", path, a->output);
         good = false;
-    } else if (good && !is_same_folder(a->results.folder, a->folder)) {
-        say_error("%s: the last run was with the goldens of %s", path, a->results.folder);
-        good = false;
+    } else if (good) {
+        find_far(a);
+        good = check_goldens(a, path);
     }
     free(path);
     return good && prepare_cases(a);
@@ -318,6 +351,7 @@ enum status accept_command(const struct arguments *args) {
     const enum status status = begin(&a) ? settle(&a) : STATUS_TROUBLE;
     free(a.scenes);
     free(a.sealed);
+    free(a.far);
     golden_results_free(&a.results);
     golden_lock_free(&a.lock);
     golden_settings_free(&a.settings);

@@ -9,6 +9,7 @@
 #include "cli/golden/folder.h"
 #include "cli/golden/run.h"
 #include "cli/interrupt.h"
+#include "cli/paths.h"
 #include "cli/pattern.h"
 #include "cli/say.h"
 #include "cli/words.h"
@@ -224,6 +225,25 @@ static void run_frames(struct subject *s) {
     free(frames);
 }
 
+char *golden_find_meant(const struct golden_run *run, const char *name) {
+    const struct golden_case *last = golden_results_find(&run->last, name);
+    char *root = golden_settings_root(&run->settings);
+    char *scene = root                  ? path_below(root, name, ".yaml")
+                  : last && last->scene ? say_text("%s", last->scene)
+                                        : NULL;
+    free(root);
+    if (scene && path_is_file(scene)) return scene;
+    free(scene);
+    return NULL;
+}
+
+/* The scene cannot be loaded: perhaps since it is called as its golden. */
+static void add_meant(const struct golden_run *run, struct golden_case *c) {
+    char *meant = golden_is_there(c->scene) ? NULL : golden_find_meant(run, c->scene);
+    if (meant) golden_add_message(c, "did you mean `%s`?", meant);
+    free(meant);
+}
+
 static void run_combination(struct subject *s) {
     const double begun = clock_seconds();
     struct golden_rule *rule = s->scene->rule;
@@ -237,6 +257,7 @@ static void run_combination(struct subject *s) {
     struct golden_case *c = load.scene ? &none : add_case(s);
     c->trouble = load.status == STATUS_TROUBLE;
     listen_end(&listener, c);
+    if (!load.scene) add_meant(s->run, c);
     c->seconds = clock_seconds() - begun;
     if (!load.scene && interrupt_pending()) drop_case(s);
     const size_t first = s->scene->count;

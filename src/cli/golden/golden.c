@@ -96,10 +96,39 @@ char *golden_difference_text(const struct golden_case *c) {
 static bool at_most(double bound, double value) { return isnan(bound) || value <= bound; }
 static bool at_least(double bound, double value) { return isnan(bound) || value >= bound; }
 
+static double pixels_allowed(const struct monge_tolerance *t, const struct monge_difference *d) {
+    return t->percent ? t->pixels / 100.0 * (double)d->pixels : t->pixels;
+}
+
 bool golden_tolerates(const struct monge_tolerance *t, const struct monge_difference *d) {
-    const double pixels = t->percent ? t->pixels / 100.0 * (double)d->pixels : t->pixels;
     if (!t->reason || d->unlike != MONGE_UNLIKE_NOTHING || isnan(d->max)) return false;
-    if (!isnan(t->max) && (double)d->beyond > pixels) return false;
+    if (!isnan(t->max) && (double)d->beyond > pixels_allowed(t, d)) return false;
     return at_most(t->mae, d->mae) && at_most(t->rmse, d->rmse) && at_most(t->flip, d->flip) &&
            at_least(t->psnr, d->psnr) && at_least(t->ssim, d->ssim);
+}
+
+static char *with_metric(char *text, bool within, const char *name, double value) {
+    return within ? text : with_part(text, say_text("%s %.6g", name, value));
+}
+
+static char *with_pixels(char *text, const struct monge_tolerance *t, const struct monge_difference *d) {
+    const double percent = 100.0 * (double)d->beyond / (double)(d->pixels ? d->pixels : 1);
+    if (isnan(t->max) || (double)d->beyond <= pixels_allowed(t, d)) return text;
+    if (t->percent) return with_part(text, say_text("%.6g%% of the pixels by over %.12g", percent, t->max));
+    return with_part(text, say_text("%llu pixel%s by over %.12g", (unsigned long long)d->beyond,
+                                    d->beyond == 1 ? "" : "s", t->max));
+}
+
+char *golden_beyond_text(const struct golden_case *c) {
+    const struct monge_tolerance *t = &c->tolerance;
+    const struct monge_difference *d = &c->difference;
+    if (!c->compared || c->status != GOLDEN_CHANGED || !c->tolerance_text ||
+        d->unlike != MONGE_UNLIKE_NOTHING)
+        return NULL;
+    char *text = with_pixels(say_text("%s", ""), t, d);
+    text = with_metric(text, at_most(t->mae, d->mae), "mae", d->mae);
+    text = with_metric(text, at_most(t->rmse, d->rmse), "rmse", d->rmse);
+    text = with_metric(text, at_least(t->psnr, d->psnr), "psnr", d->psnr);
+    text = with_metric(text, at_least(t->ssim, d->ssim), "ssim", d->ssim);
+    return with_metric(text, at_most(t->flip, d->flip), "flip", d->flip);
 }

@@ -67,6 +67,10 @@ struct monge_causes golden_causes(const struct golden_case *c);
 /* "at most 0.1% of the pixels by over 0.004, flip at most 0.01". To be freed. */
 char *golden_tolerance_text(const struct monge_tolerance *tolerance);
 
+/* "psnr 72.1, flip 0.021": what of the difference is beyond the tolerance of the case. To be freed; NULL: it has none, or is
+ * not compared with it. */
+char *golden_beyond_text(const struct golden_case *c);
+
 /* "1204 of 24576 pixels, by up to 0.31, flip 0.021"; of a case that is compared. To be freed. */
 char *golden_difference_text(const struct golden_case *c);
 

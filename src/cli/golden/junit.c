@@ -68,18 +68,29 @@ static void put_failure(FILE *out, const struct golden_case *c) {
     free(message);
 }
 
+/* A picture that is the same but for a tolerance passes, and says so. */
+static void put_detail(FILE *out, const struct golden_case *c) {
+    char *detail = golden_detail(c);
+    fputs("      <system-out>", out);
+    put_text(out, detail ? detail : "");
+    fputs("</system-out>\n", out);
+    free(detail);
+}
+
 /* The folder of the scene is its class. */
 static void put_case(FILE *out, const struct golden_case *c) {
+    const bool empty = c->status == GOLDEN_SAME && !c->unchanged && !c->within;
     const char *slash = strrchr(c->name, '/');
     char *folder = slash ? say_text("%.*s", (int)(slash - c->name), c->name) : say_text("scenes");
     fputs("    <testcase", out);
     put_attribute(out, "classname", folder);
     put_attribute(out, "name", slash ? slash + 1 : c->name);
     if (c->scene) put_attribute(out, "file", c->scene);
-    fprintf(out, " time=\"%.3f\"%s>\n", c->seconds, c->status == GOLDEN_SAME && !c->unchanged ? "/" : "");
+    fprintf(out, " time=\"%.3f\"%s>\n", c->seconds, empty ? "/" : "");
     if (c->unchanged) fputs("      <skipped message=\"unchanged\"/>\n", out);
     if (c->status != GOLDEN_SAME) put_failure(out, c);
-    if (c->status != GOLDEN_SAME || c->unchanged) fputs("    </testcase>\n", out);
+    if (c->within) put_detail(out, c);
+    if (!empty) fputs("    </testcase>\n", out);
     free(folder);
 }
 

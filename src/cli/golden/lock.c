@@ -159,10 +159,17 @@ static int compare_lines(const void *a, const void *b) {
     return strcmp(((const struct golden_line *)a)->name, ((const struct golden_line *)b)->name);
 }
 
-static struct golden_line *add_line(struct golden_lock *lock) {
+/* Those of one name by their order in the file. */
+static int compare_places(const void *a, const void *b) {
+    const unsigned p = ((const struct golden_line *)a)->number, q = ((const struct golden_line *)b)->number;
+    const int order = compare_lines(a, b);
+    return order ? order : (p > q) - (p < q);
+}
+
+static struct golden_line *add_line(struct golden_lock *lock, unsigned number) {
     lock->lines = realloc(lock->lines, (lock->count + 1) * sizeof *lock->lines);
     if (!lock->lines) say_no_memory();
-    lock->lines[lock->count] = (struct golden_line){0};
+    lock->lines[lock->count] = (struct golden_line){.number = number};
     return &lock->lines[lock->count++];
 }
 
@@ -180,7 +187,7 @@ static bool read_lines(struct golden_lock *lock, const struct monge_text *text) 
         if (!stop || strlen(at) != (size_t)(stop - at))
             wrong = stop ? "a NUL character" : "the line is cut off";
         else if (*at && *at != '#')
-            wrong = read_line(at, add_line(lock));
+            wrong = read_line(at, add_line(lock, number));
         if (wrong) {
             say_error("%s:%u: %s", lock->path, number, wrong);
             if (lock->count > 0 && !lock->lines[lock->count - 1].name) free_line(&lock->lines[--lock->count]);
@@ -193,8 +200,10 @@ static bool read_lines(struct golden_lock *lock, const struct monge_text *text) 
 
 static bool check_names(const struct golden_lock *lock) {
     for (size_t i = 1; i < lock->count; i++) {
-        if (strcmp(lock->lines[i - 1].name, lock->lines[i].name) != 0) continue;
-        say_error("%s: two lines for %s: keep one of them", lock->path, lock->lines[i].name);
+        const struct golden_line *line = &lock->lines[i];
+        if (strcmp(line[-1].name, line->name) != 0) continue;
+        say_error("%s:%u: a second line for %s, as line %u is: keep one of them", lock->path, line->number,
+                  line->name, line[-1].number);
         return false;
     }
     return true;
@@ -209,7 +218,7 @@ bool golden_lock_read(struct golden_lock *lock, const char *folder) {
     bool good = diag && monge_text_read(lock->path, NULL, &text, diag);
     if (diag && !good) monge_diagnostics_print(diag, say_stream());
     good = good && read_lines(lock, &text);
-    if (lock->count > 0) qsort(lock->lines, lock->count, sizeof *lock->lines, compare_lines);
+    if (lock->count > 0) qsort(lock->lines, lock->count, sizeof *lock->lines, compare_places);
     monge_text_free(&text);
     monge_diagnostics_free(diag);
     return good && check_names(lock);
@@ -234,7 +243,7 @@ const struct golden_line *golden_lock_find(const struct golden_lock *lock, const
 
 /* A line without a name, at the place of one of that name. */
 static struct golden_line *insert_line(struct golden_lock *lock, const char *name) {
-    struct golden_line *line = add_line(lock);
+    struct golden_line *line = add_line(lock, 0);
     for (; line > lock->lines && strcmp(line[-1].name, name) > 0; line--) *line = line[-1];
     return line;
 }

@@ -14,6 +14,7 @@
 
 struct golden_line {
     char *name;                /* owned */
+    unsigned number;           /* in the file, from 1; 0: it is new */
     bool gone;                 /* removed: it is not written any more */
     struct golden_stamp stamp; /* its options "" where there are none */
 };

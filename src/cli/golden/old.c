@@ -4,6 +4,7 @@
 #include <spawn.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -16,6 +17,35 @@
 #include "cli/words.h"
 
 /* ---- --old ---- */
+
+static bool can_run(const char *path) {
+    struct stat status;
+    if (access(path, X_OK) != 0 || stat(path, &status) != 0) return false;
+    if (S_ISREG(status.st_mode)) return true;
+    errno = S_ISDIR(status.st_mode) ? EISDIR : EACCES;
+    return false;
+}
+
+/* As a shell looks for it: an empty folder in the PATH is the current one. */
+static bool is_in_path(const char *program) {
+    const char *path = getenv("PATH");
+    char *folders = say_text("%s", path ? path : "/usr/bin:/bin"), *at = folders;
+    bool found = false;
+    for (char *folder; !found && (folder = strsep(&at, ":"));) {
+        char *file = path_below(*folder ? folder : ".", program, "");
+        found = can_run(file);
+        free(file);
+    }
+    free(folders);
+    return found;
+}
+
+bool golden_check_old(const char *program) {
+    const bool named = strchr(program, '/') != NULL;
+    if (named ? can_run(program) : is_in_path(program)) return true;
+    say_error("--old %s: %s", program, named ? strerror(errno) : "there is no such program in the PATH");
+    return false;
+}
 
 /* Whether the command, a shell's, ends well. */
 static bool run_command(char *command) {
@@ -120,7 +150,7 @@ void golden_set_old_command(const struct golden_run *run, struct golden_case *c)
     free(lock);
     free(quoted_line);
     free(line);
-    if (golden_causes(c).program == MONGE_DIFFERENT)
+    if (!run->old_program && golden_causes(c).program == MONGE_DIFFERENT)
         golden_add_message(
             c,
             "the golden is of another program (sources %.12s): `--old PROGRAM` shows it, where you have that",

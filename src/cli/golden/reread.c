@@ -104,6 +104,7 @@ static enum golden_reading read_document(struct golden_results *results, const c
     const struct monge_value *root = document ? monge_document_root(document) : NULL;
     const bool others = root && !monge_value_text(root) && !monge_value_get(root, "golden");
     results->folder = read_text(root, "golden");
+    results->from = read_text(root, "from");
     results->interrupted = read_whole(monge_value_get(root, "interrupted"));
     read_places(root, &results->places);
     const bool good = results->folder && read_cases(results, monge_value_get(root, "scenes"));
@@ -131,6 +132,7 @@ void golden_results_free(struct golden_results *results) {
     for (size_t i = 0; i < results->count; i++) golden_case_free(&results->cases[i]);
     free(results->cases);
     free(results->folder);
+    free(results->from);
     golden_places_free(&results->places);
 }
 

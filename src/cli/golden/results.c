@@ -92,6 +92,10 @@ static void put_tolerance(FILE *out, const struct golden_case *c) {
     monge_write_json_string(c->tolerance_text, out);
     fputs(", \"reason\": ", out);
     monge_write_json_string(c->tolerance.reason, out);
+    char *beyond = golden_beyond_text(c);
+    if (beyond) fputs(", \"beyond\": ", out);
+    if (beyond) monge_write_json_string(beyond, out);
+    free(beyond);
     fputs("}", out);
 }
 
@@ -219,6 +223,8 @@ static void put_head(FILE *out, const struct golden_results *results) {
     fprintf(out, ",\n \"version\": \"%s\",\n \"program\": \"%s\",\n \"golden\": ", monge_version(),
             monge_program());
     monge_write_json_string(results->folder, out);
+    if (results->from) fputs(",\n \"from\": ", out);
+    if (results->from) monge_write_json_string(results->from, out);
     put_places(out, &results->places);
     fputs(",\n \"summary\": {", out);
     for (enum golden_status s = 0; s < GOLDEN_STATUSES; s++)

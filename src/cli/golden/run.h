@@ -36,6 +36,10 @@ struct golden_run {
  * behind. */
 void golden_scene_run(struct golden_run *run, struct golden_scene *scene);
 
+/* The scene that is meant by the name of its golden in place of a path: one that is there, below the root or, without a root,
+ * of the run before. To be freed; NULL: none. */
+char *golden_find_meant(const struct golden_run *run, const char *name);
+
 /* Whether goldens of this kind have pixels, so that a difference can be within a tolerance: hashes have with --old alone. */
 bool golden_knows_tolerance(const struct golden_run *run, enum monge_golden_kind kind);
 
@@ -50,6 +54,9 @@ bool golden_is_unchanged(const struct golden_run *run, const struct golden_case 
  * run's folder unless it is the same. */
 void golden_judge(const struct golden_run *run, struct golden_case *c, const struct monge_film *film,
                   bool has_golden);
+
+/* Whether there is a program that --old may mean. False: told. */
+bool golden_check_old(const char *program);
 
 /* The golden's picture where it is a hash, by the program of --old, in the run's folder. False: it is another one, or
  * there is none; the message of the case tells. */

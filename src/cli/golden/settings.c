@@ -145,3 +145,15 @@ char *golden_settings_name(const struct golden_settings *settings, const struct 
     if (!settings->root) return say_text("%s", scene->name);
     return scene_name_below(settings->root, scene->path, scene->name);
 }
+
+char *golden_settings_root(const struct golden_settings *settings) {
+    const char *root = settings->root;
+    if (!root) return NULL;
+    char *here = getcwd(NULL, 0);
+    const size_t length = here ? strlen(here) : 0;
+    const bool below =
+        length > 1 && strncmp(root, here, length) == 0 && (root[length] == '/' || !root[length]);
+    char *path = !below ? say_text("%s", root) : say_text("%s", root[length] ? root + length + 1 : ".");
+    free(here);
+    return path;
+}

@@ -30,6 +30,9 @@ bool golden_settings_read(struct golden_settings *settings, const char *folder,
                           const struct loader *loader);
 void golden_settings_free(struct golden_settings *settings);
 
+/* The root as one would name it from here, where it is below; NULL: there is none. To be freed. */
+char *golden_settings_root(const struct golden_settings *settings);
+
 /* The rule for a scene, by its name. */
 struct golden_rule *golden_settings_find(const struct golden_settings *settings, const char *name);
 

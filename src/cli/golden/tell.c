@@ -26,7 +26,7 @@ char *golden_detail(const struct golden_case *c) {
                             c->now.bits, c->old.width, c->old.height, c->old.bits);
         return say_text("its pixels are not those of the hash");
     case GOLDEN_NEW: return say_text("there is no golden yet");
-    case GOLDEN_ORPHAN: return say_text("no scene makes it any more");
+    case GOLDEN_ORPHAN: return say_text("no scene makes it any more: `monge accept --prune` removes it");
     default: return NULL;
     }
 }
@@ -54,6 +54,9 @@ static void print_details(FILE *out, const struct golden_case *c, const char *be
     free(differs);
     if (c->tolerance_text && c->status == GOLDEN_CHANGED)
         print_field(out, "allowed: ", c->tolerance_text, before);
+    char *beyond = golden_beyond_text(c);
+    print_field(out, "beyond: ", beyond, before);
+    free(beyond);
     print_field(out, "new: ", c->new_path, before);
     print_field(out, "again: ", c->command, before);
     print_field(out, "old: ", c->old_command, before);
@@ -106,6 +109,9 @@ static void tell_tap(const struct golden_teller *teller, const struct golden_cas
     put_description(teller->out, c->name);
     fprintf(teller->out, "%s\n", c->unchanged ? " # SKIP unchanged" : "");
     if (c->status != GOLDEN_SAME) put_block(teller->out, c);
+    char *detail = c->within ? golden_detail(c) : NULL;
+    if (detail) say_line(teller->out, "# %s", detail);
+    free(detail);
 }
 
 /* ---- Both ---- */

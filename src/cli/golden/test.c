@@ -14,6 +14,7 @@
 #include "cli/golden/rules.h"
 #include "cli/golden/run.h"
 #include "cli/golden/take.h"
+#include "cli/golden/targets.h"
 #include "cli/golden/tell.h"
 #include "cli/interrupt.h"
 #include "cli/paths.h"
@@ -25,23 +26,13 @@ struct test {
     struct golden_run run;
     struct golden_teller teller;
     struct golden_results results;
+    bool holds_new; /* what is new is told at the end, when it is known whether it is that of an orphan */
     double begun;
 };
 
 static bool wants(const struct test *test, enum option_id option) { return test->args.option[option].given; }
 
 /* ---- Scenes ---- */
-
-/* The root as one would name it from here, where it is below. To be freed. */
-static char *root_from_here(const char *root) {
-    char *here = getcwd(NULL, 0);
-    const size_t length = here ? strlen(here) : 0;
-    const bool below =
-        length > 1 && strncmp(root, here, length) == 0 && (root[length] == '/' || !root[length]);
-    char *path = !below ? say_text("%s", root) : say_text("%s", root[length] ? root + length + 1 : ".");
-    free(here);
-    return path;
-}
 
 /* Without operands, all that is below the root. */
 static bool find_scenes(struct test *test) {
@@ -58,7 +49,7 @@ static bool find_scenes(struct test *test) {
     }
     if (test->args.count == 0) {
         struct arguments args = test->args;
-        char *root = root_from_here(run->settings.root);
+        char *root = golden_settings_root(&run->settings);
         args.operands = &root;
         args.count = 1;
         scenes_find(&run->loader.scenes, &args, SCENES_ALONE, &run->loader.limits.load, &run->loader.report);
@@ -70,12 +61,6 @@ static bool find_scenes(struct test *test) {
         return false;
     }
     return true;
-}
-
-static bool is_same_file(const char *a, const char *b) {
-    struct stat p, q;
-    return strcmp(a, b) == 0 ||
-           (stat(a, &p) == 0 && stat(b, &q) == 0 && p.st_dev == q.st_dev && p.st_ino == q.st_ino);
 }
 
 static int compare_scenes(const void *a, const void *b) {
@@ -94,7 +79,7 @@ static bool check_scenes(struct golden_run *run) {
     if (good && run->count > 1) qsort(sorted, run->count, sizeof *sorted, compare_scenes);
     for (size_t i = 1; good && i < run->count; i++) {
         if (strcmp(sorted[i - 1]->name, sorted[i]->name) != 0) continue;
-        good = is_same_file(sorted[i - 1]->path, sorted[i]->path);
+        good = golden_is_same_file(sorted[i - 1]->path, sorted[i]->path);
         if (!good)
             say_error("%s and %s would have the same golden, %s: give --root, or golden.yaml a `root`",
                       sorted[i - 1]->path, sorted[i]->path, sorted[i]->name);
@@ -113,6 +98,14 @@ static bool check_scenes(struct golden_run *run) {
     return true;
 }
 
+static void say_unread(const struct golden_run *run, const char *path) {
+    const char *why = strerror(errno);
+    char *meant = golden_find_meant(run, path);
+    say_error("cannot read %s: %s%s%s%s", path, why, meant ? "; did you mean `" : "", meant ? meant : "",
+              meant ? "`?" : "");
+    free(meant);
+}
+
 static bool name_scenes(struct golden_run *run) {
     const struct scenes *found = &run->loader.scenes;
     run->scenes = calloc(found->count + 1, sizeof *run->scenes);
@@ -125,7 +118,7 @@ static bool name_scenes(struct golden_run *run) {
             continue;
         }
         if (access(found->all[i].path, F_OK) != 0)
-            say_error("cannot read %s: %s", found->all[i].path, strerror(errno));
+            say_unread(run, found->all[i].path);
         else
             say_error("%s: it is not below `root`, %s", found->all[i].path, run->settings.root);
         run->loader.scenes.status = STATUS_TROUBLE;
@@ -152,7 +145,7 @@ static void find_places(struct test *test) {
     struct golden_places *places = &test->results.places;
     const char *root = test->run.settings.root;
     if (!names_all(test)) return;
-    if (root) places->root = root_from_here(root);
+    if (root) places->root = golden_settings_root(&test->run.settings);
     for (size_t i = 0; i < test->args.count && !root; i++) golden_places_add(places, test->args.operands[i]);
 }
 
@@ -174,27 +167,6 @@ static bool make_folder(const char *path) {
     const bool good = there || (path_make_folders(file) && golden_write(file, &ignore));
     free(file);
     return good;
-}
-
-/* Whether what an option has given, or a part of it, is another folder than that of the goldens. */
-static bool keeps_out(const struct golden_run *run, const char *option, const char *given, const char *part) {
-    char *path = path_below(given, part, ""), *real = golden_real_path(path);
-    char *goldens = golden_real_path(run->folder);
-    const bool good = strcmp(real, goldens) != 0;
-    if (!good)
-        say_error("--%s %s would write into the folder of the goldens, %s", option, given, run->folder);
-    free(goldens);
-    free(real);
-    free(path);
-    return good;
-}
-
-/* The run writes into its folder, and removes what is in its new/ and old/: goldens must not be there. */
-static bool check_folders(const struct test *test) {
-    const struct golden_run *run = &test->run;
-    const char *report = test->args.option[OPTION_REPORT].text;
-    return keeps_out(run, "output", run->output, "") && keeps_out(run, "output", run->output, "new") &&
-           keeps_out(run, "output", run->output, "old") && (!report || keeps_out(run, "report", report, ""));
 }
 
 static bool prepare_folder(struct golden_run *run) {
@@ -222,7 +194,26 @@ static void end_scene(void *context, size_t index, const char *said) {
     const struct golden_scene *scene = &test->run.scenes[index];
     progress_hide(&test->run.progress);
     fputs(said, stderr);
-    for (size_t i = 0; i < scene->count; i++) golden_tell(&test->teller, &scene->cases[i]);
+    for (size_t i = 0; i < scene->count; i++)
+        if (!test->holds_new || scene->cases[i].status != GOLDEN_NEW)
+            golden_tell(&test->teller, &scene->cases[i]);
+}
+
+/* Whether there are goldens of which the run may find out that they are orphans. */
+static bool may_find_orphans(const struct test *test) {
+    if (!names_all(test)) return false;
+    char **names = golden_names(test->run.folder);
+    const bool any = test->run.lock.count > 0 || (names && *names);
+    golden_names_free(names);
+    return any;
+}
+
+/* What the run has not told: what is new, if that is held, and orphans. */
+static void tell_rest(struct test *test, size_t first_orphan) {
+    const struct golden_results *results = &test->results;
+    for (size_t i = test->holds_new ? 0 : first_orphan; i < results->count; i++)
+        if (i >= first_orphan || results->cases[i].status == GOLDEN_NEW)
+            golden_tell(&test->teller, &results->cases[i]);
 }
 
 /* Of all scenes, in their order; they are the results' from now on. */
@@ -378,6 +369,7 @@ static void tell_interrupted(const struct test *test) {
 static enum status run_test(struct test *test) {
     struct golden_run *run = &test->run;
     const struct batch batch = {run->count, run->jobs, run->jobs > 1, test, run_scene, end_scene};
+    test->holds_new = may_find_orphans(test);
     golden_tell_begin(&test->teller);
     progress_begin(&run->progress, (enum progress_wish)test->args.option[OPTION_PROGRESS].choice,
                    test->teller.quiet, run->count, run->loader.scenes.missing);
@@ -390,8 +382,7 @@ static enum status run_test(struct test *test) {
     if (all) find_places(test);
     const bool whole = all && golden_looks_for_orphans(run, &test->results);
     if (whole) golden_find_orphans(run, &test->results);
-    for (size_t i = first_orphan; i < test->results.count; i++)
-        golden_tell(&test->teller, &test->results.cases[i]);
+    tell_rest(test, first_orphan);
     test->results.seconds = clock_seconds() - test->begun;
     golden_tell_end(&test->teller, &test->results);
     if (whole && test->results.elsewhere == 0) golden_warn_of_unused(run);
@@ -445,13 +436,15 @@ static bool begin(struct test *test, const struct arguments *args) {
                                .quiet = option[OPTION_QUIET].given || (out == stderr && for_programs),
                                .colors = isatty(fileno(out)) && !getenv("NO_COLOR")};
     test->results.folder = say_text("%s", run->folder);
+    test->results.from = getcwd(NULL, 0);
     const enum monge_golden_kind kind = (enum monge_golden_kind)option[OPTION_GOLDEN_KIND].choice;
-    if (!golden_check_folder(run->folder) || !loader_begin(&run->loader, args) ||
+    if (!golden_check_folder(run->folder) || (run->old_program && !golden_check_old(run->old_program)) ||
+        !loader_begin(&run->loader, args) ||
         !golden_settings_read(&run->settings, run->folder, option[OPTION_GOLDEN_KIND].given ? &kind : NULL,
                               &option[OPTION_ROOT], &run->loader))
         return false;
     golden_warn_of_tolerances(run);
-    if (!check_folders(test) || !find_scenes(test) || !name_scenes(run) ||
+    if (!find_scenes(test) || !name_scenes(run) || !golden_check_targets(run, option) ||
         !golden_lock_read(&run->lock, run->folder) || !prepare_folder(run))
         return false;
     mention_folder(test);

@@ -1,0 +1,114 @@
+#include "cli/golden/targets.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <sys/stat.h>
+
+#include "cli/golden/folder.h"
+#include "cli/paths.h"
+#include "cli/say.h"
+
+bool golden_is_same_file(const char *a, const char *b) {
+    struct stat p, q;
+    return strcmp(a, b) == 0 ||
+           (stat(a, &p) == 0 && stat(b, &q) == 0 && p.st_dev == q.st_dev && p.st_ino == q.st_ino);
+}
+
+/* Whether the path is the folder, or is below it; of what is not there (yet), too. */
+static bool is_within(const char *path, const char *folder) {
+    char *real = golden_real_path(path), *real_folder = golden_real_path(folder);
+    const size_t length = strcmp(real_folder, "/") == 0 ? 0 : strlen(real_folder);
+    const bool within =
+        strncmp(real, real_folder, length) == 0 && (real[length] == '/' || real[length] == '\0');
+    free(real_folder);
+    free(real);
+    return within;
+}
+
+/* ---- Folders ---- */
+
+static bool keeps_out(const struct golden_run *run, const char *option, const char *path) {
+    if (!is_within(path, run->folder)) return true;
+    say_error("--%s %s would write into the folder of the goldens, %s", option, path, run->folder);
+    return false;
+}
+
+/* The run writes into new/ and old/ of its folder, and removes what is there: goldens must not be. */
+static bool part_keeps_out(const struct golden_run *run, const char *part) {
+    char *path = path_below(run->output, part, "");
+    const bool good = !is_within(run->folder, path) && !is_within(path, run->folder);
+    if (!good)
+        say_error("--output %s would write into the folder of the goldens, %s", run->output, run->folder);
+    free(path);
+    return good;
+}
+
+/* ---- Files ---- */
+
+/* A file that the run writes. */
+struct target {
+    const char *option, *path; /* the path NULL: none; "-" is standard output */
+};
+
+static bool is_file_target(const struct target *target) {
+    return target->path && strcmp(target->path, "-") != 0 && !path_is_special(target->path);
+}
+
+/* What scenes, their includes, and goldens are called: none of the documents is that. */
+static bool has_ending_of_input(const char *path) {
+    static const char *const endings[] = {".yaml", ".yml", ".png", ".lock"};
+    const size_t length = strlen(path);
+    for (size_t i = 0; i < sizeof endings / sizeof *endings; i++) {
+        const size_t size = strlen(endings[i]);
+        if (length >= size && strcasecmp(path + length - size, endings[i]) == 0) return true;
+    }
+    return false;
+}
+
+static bool spares_inputs(const struct golden_run *run, const struct target *target) {
+    if (!is_file_target(target)) return true;
+    if (!keeps_out(run, target->option, target->path)) return false;
+    for (size_t i = 0; i < run->count; i++)
+        if (golden_is_same_file(run->scenes[i].path, target->path)) {
+            say_error("--%s %s would write over a scene of the run", target->option, target->path);
+            return false;
+        }
+    if (!has_ending_of_input(target->path)) return true;
+    say_error("--%s %s: it is called as scenes or goldens are, and would be none", target->option,
+              target->path);
+    return false;
+}
+
+static bool are_apart(const struct target *a, const struct target *b) {
+    if (!is_file_target(a) || !is_file_target(b)) return true;
+    char *p = golden_real_path(a->path), *q = golden_real_path(b->path);
+    const bool apart = strcmp(p, q) != 0 && !golden_is_same_file(p, q);
+    if (!apart) say_error("--%s and --%s would write the same file, %s", a->option, b->option, b->path);
+    free(q);
+    free(p);
+    return apart;
+}
+
+/* The document of --json is that of the results: they may be one file. */
+static bool check_files(const struct golden_run *run, const struct option_value *option) {
+    const char *report = option[OPTION_REPORT].text;
+    char *results = path_below(run->output, "results.json", ""),
+         *page = report ? path_below(report, "index.html", "") : NULL;
+    const struct target json = {"json", option[OPTION_TEST_JSON].text},
+                        junit = {"junit", option[OPTION_JUNIT].text};
+    const bool good = spares_inputs(run, &json) && spares_inputs(run, &junit) && are_apart(&json, &junit) &&
+                      are_apart(&(struct target){"output", results}, &junit) &&
+                      are_apart(&(struct target){"report", page}, &json) &&
+                      are_apart(&(struct target){"report", page}, &junit);
+    free(page);
+    free(results);
+    return good;
+}
+
+bool golden_check_targets(const struct golden_run *run, const struct option_value *option) {
+    const char *report = option[OPTION_REPORT].text;
+    return keeps_out(run, "output", run->output) && part_keeps_out(run, "new") &&
+           part_keeps_out(run, "old") && (!report || keeps_out(run, "report", report)) &&
+           check_files(run, option);
+}

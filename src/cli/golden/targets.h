@@ -1,0 +1,14 @@
+/* Where a run writes: never over what it reads. */
+#ifndef MONGE_CLI_GOLDEN_TARGETS_H
+#define MONGE_CLI_GOLDEN_TARGETS_H
+
+#include "cli/golden/run.h"
+
+/* Whether the folders of --output and --report, and the files of --json and --junit, keep out of the goldens and of the scenes
+ * of the run, and no two of the files are the same. False: told. */
+bool golden_check_targets(const struct golden_run *run, const struct option_value *option);
+
+/* Whether two paths lead to the same file. */
+bool golden_is_same_file(const char *a, const char *b);
+
+#endif
