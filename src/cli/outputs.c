@@ -11,6 +11,7 @@
 #include "cli/paths.h"
 #include "cli/pattern.h"
 #include "cli/say.h"
+#include "cli/scene_path.h"
 
 /* ---- Names ---- */
 
@@ -100,9 +101,19 @@ static bool check_pattern(const struct plan *plan) {
     return false;
 }
 
-static bool check_kind(const struct plan *plan) {
+/* What is called like a scene would write over one, were it another than is rendered. */
+static bool check_no_scene(const char *option, const char *path, const char *extension) {
+    const char *end = path ? scene_extension(path) : NULL;
+    if (!end || path_is_special(path)) return true;
+    say_usage(COMMAND_RENDER, "%s %s is called like a scene; did you mean %.*s%s?", option, path,
+              (int)(end - path), path, extension);
+    return false;
+}
+
+static bool check_kinds(const struct plan *plan) {
     const char *wanted = plan->wanted;
-    return !wanted || is_stream(wanted) || path_check_picture(COMMAND_RENDER, "-o", wanted);
+    return (!wanted || is_stream(wanted) || path_check_picture(COMMAND_RENDER, "-o", wanted)) &&
+           check_no_scene("--stats", plan->stats, ".json") && check_no_scene("--log", plan->log, ".log");
 }
 
 /* ---- Conflicts ---- */
@@ -347,7 +358,7 @@ bool plan_begin(struct plan *plan, const struct arguments *args, const struct sc
         .scenes = scenes,
         .count = scenes->count * sweep->total,
     };
-    return check_pattern(plan) && check_kind(plan) && make_outputs(plan) && check_streams(plan) &&
+    return check_pattern(plan) && check_kinds(plan) && make_outputs(plan) && check_streams(plan) &&
            check_files(plan) && (!plan->stats || check_writable(report, plan->stats));
 }
 
