@@ -119,6 +119,23 @@ for i in $(seq 10 21); do echo 'on: push' >kinds/$i.yml; done
 exits 0 info kinds; err_has '12 files without a `scene` are left out: kinds/10.yml, '; err_has 'kinds/19.yml, ...'; err_lacks kinds/20.yml
 exits 0 check kinds; err_has 'kinds/21.yml, kinds/golden.yaml'
 
+# what is empty and what may never end are left out, but for those that are named
+mkdir left; cp s/a.yaml left/; : >left/empty.yaml; printf '# to be written\n\n' >left/idea.yml; mkfifo left/pipe.yaml
+left='2 files without a `scene` are left out: left/empty.yaml, left/idea.yml'
+for from in left 'left/*.y*ml' 'left/**/*'; do
+    for command in 'check' 'info' 'fmt --check' 'render --size 16x12 -o left.d/' 'render -n'; do
+        last="$command $from"; timeout -s KILL 60 "$monge" $command "$from" >out 2>err </dev/null; status=$?
+        ok "a pipe that nobody writes to" [ $status -eq 0 ]; err_has "$left"; err_has '1 pipe, socket or device is left out: left/pipe.yaml'
+    done
+    "$monge" check "$from" >out 2>err; out_is 'left/a.yaml: ok'
+done
+mkfifo left/q.yaml; exits 0 info left; err_has '2 pipes, sockets or devices are left out: left/pipe.yaml, left/q.yaml'
+exits 0 render -q left "${small[@]}" -o left.d/; no_err
+last='check left/[pq]*.yaml'; timeout -s KILL 60 "$monge" check 'left/[pqe]*.yaml' >out 2>err; status=$?
+ok "none is left" [ $status -eq 2 ]; err_has 'error[no-match]: left/[pqe]*.yaml: no scene matches'
+cat s/a.yaml >left/pipe.yaml & exits 0 check left/pipe.yaml; wait $!; out_is 'left/pipe.yaml: ok'
+exits 1 check left/empty.yaml; err_has 'error[empty-file]'
+
 printf 'scene:   []\n' >s/odd.yaml; printf 'params:   {r: 1}\n' >s/defs.yaml
 exits 1 fmt --check s; out_is "$(printf 's/%s\n' defs.yaml json.yaml odd.yaml)"
 rm s/odd.yaml

@@ -11,6 +11,12 @@
 #include "cli/say.h"
 #include "cli/scene_path.h"
 
+/* Files of folders and patterns that are not wanted, and are to be told. */
+struct left_out {
+    char *names;  /* "a.yaml, b.yaml"; NULL: none */
+    size_t count; /* of more than a few the others are in this number alone */
+};
+
 /* What is under way. */
 struct search {
     struct scenes *scenes;
@@ -18,9 +24,7 @@ struct search {
     const struct monge_limits *limits;
     struct report *report;
     enum scenes_wish wish;
-    char *
-        left_out; /* files below folders that are not wanted, and are to be told: "a.yaml, b.yaml"; NULL: none */
-    size_t left_out_count; /* of more than a few the others are in this number alone */
+    struct left_out no_scenes, special; /* special: pipes and devices, which may never end */
     bool input_read;
 };
 
@@ -67,26 +71,31 @@ static bool is_settings(const char *path) {
 
 enum { FEW = 10 }; /* names that are worth a line, but for `monge check`, which has all */
 
-/* What is no scene as its author meant it, definitions and settings of goldens, is told by `monge check` alone. */
-static void leave_out(struct search *search, const char *path, enum monge_text_kind kind) {
-    const bool all = search->args->command == COMMAND_CHECK;
-    if ((kind == MONGE_TEXT_DEFINITIONS || is_settings(path)) && !all) return;
-    if (++search->left_out_count > FEW && !all) return;
-    char *before = search->left_out;
-    search->left_out = before ? say_text("%s, %s", before, path) : say_text("%s", path);
+static bool tells_all(const struct search *search) { return search->args->command == COMMAND_CHECK; }
+
+static void leave_out(const struct search *search, struct left_out *left_out, const char *path) {
+    if (++left_out->count > FEW && !tells_all(search)) return;
+    char *before = left_out->names;
+    left_out->names = before ? say_text("%s, %s", before, path) : say_text("%s", path);
     free(before);
+}
+
+/* What is no scene as its author meant it, definitions and settings of goldens, is told by `monge check` alone. */
+static void leave_out_kind(struct search *search, const char *path, enum monge_text_kind kind) {
+    const bool meant = kind == MONGE_TEXT_DEFINITIONS || is_settings(path);
+    if (!meant || tells_all(search)) leave_out(search, &search->no_scenes, path);
 }
 
 static bool is_quiet(const struct search *search) {
     return search->args->option[OPTION_QUIET].given || search->report->format != MONGE_FORMAT_TEXT;
 }
 
-static void mention_left_out(const struct search *search) {
-    const size_t count = search->left_out_count;
-    const bool more = count > FEW && search->args->command != COMMAND_CHECK;
+static void mention(const struct search *search, const struct left_out *left_out, const char *one,
+                    const char *many) {
+    const size_t count = left_out->count;
+    const bool more = count > FEW && !tells_all(search);
     if (count == 0 || is_quiet(search)) return;
-    say_note("%zu file%s without a `scene` %s left out: %s%s", count, count == 1 ? "" : "s",
-             count == 1 ? "is" : "are", search->left_out, more ? ", ..." : "");
+    say_note("%zu %s left out: %s%s", count, count == 1 ? one : many, left_out->names, more ? ", ..." : "");
 }
 
 static void walk(struct search *search, const char *folder, size_t below);
@@ -98,12 +107,16 @@ static void walk_entry(struct search *search, const char *path, size_t below) {
         return;
     }
     if (!scene_extension(path)) return;
+    if (path_is_special(path)) {
+        leave_out(search, &search->special, path);
+        return;
+    }
     const enum monge_text_kind kind = scene_kind(path, search->limits);
     const bool definitions = kind == MONGE_TEXT_DEFINITIONS && search->wish == SCENES_AND_DEFINITIONS;
     if (kind == MONGE_TEXT_SCENE || definitions)
         add_scene(search, path, path + below);
     else
-        leave_out(search, path, kind);
+        leave_out_kind(search, path, kind);
 }
 
 static void walk(struct search *search, const char *folder, size_t below) {
@@ -270,15 +283,26 @@ static void add_file(struct search *search, const char *path) {
     search->scenes->status = STATUS_TROUBLE;
 }
 
+/* A path that a pattern stands for; its name is what is behind `name`. */
+static void add_match(struct search *search, const char *path, const char *name) {
+    if (path_is_folder(path))
+        add_folder(search, path, (size_t)(name - path));
+    else if (path_is_special(path))
+        leave_out(search, &search->special, path);
+    else if (scene_kind(path, search->limits) == MONGE_TEXT_EMPTY)
+        leave_out(search, &search->no_scenes, path);
+    else
+        add_scene(search, path, name);
+}
+
 static void add_pattern(struct search *search, const char *pattern) {
+    const size_t count = search->scenes->count, missing = search->scenes->missing;
     struct matches matches = matches_find(pattern);
     search->scenes->several = true;
-    if (matches.count == 0) report_trouble(search, pattern, "no file matches");
-    for (size_t i = 0; i < matches.count; i++) {
-        const char *path = matches.paths[i], *name = matches_varying(pattern, path);
-        path_is_folder(path) ? add_folder(search, path, (size_t)(name - path))
-                             : add_scene(search, path, name);
-    }
+    for (size_t i = 0; i < matches.count; i++)
+        add_match(search, matches.paths[i], matches_varying(pattern, matches.paths[i]));
+    if (search->scenes->count == count && search->scenes->missing == missing)
+        report_trouble(search, pattern, matches.count == 0 ? "no file matches" : "no scene matches");
     matches_free(&matches);
 }
 
@@ -384,8 +408,10 @@ void scenes_find(struct scenes *scenes, const struct arguments *args, enum scene
     for (size_t i = 0; i < args->count; i++) add_operand(&search, args->operands[i]);
     name_from_root(&search);
     drop_repeated(scenes);
-    mention_left_out(&search);
-    free(search.left_out);
+    mention(&search, &search.no_scenes, "file without a `scene` is", "files without a `scene` are");
+    mention(&search, &search.special, "pipe, socket or device is", "pipes, sockets or devices are");
+    free(search.no_scenes.names);
+    free(search.special.names);
 }
 
 void scenes_free(struct scenes *scenes) {

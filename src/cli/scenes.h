@@ -4,7 +4,7 @@
  *     scenes/         a folder: all *.yaml and *.yml below it that are scenes, sorted by name; what is hidden, and
  *                     links to folders, are passed by
  *     'k[1-3]*.yaml'  a pattern that the shell has left alone; `**` in it, as the name of a folder, stands for any
- *                     folders, or none
+ *                     folders, or none; empty files, pipes and devices are left out, as in folders
  *     @list, @-       a file, or standard input, with one of these a line; # begins a comment. Where it has a NUL,
  *                     what is between NULs is a name as it stands
  *     -               standard input: a list where each entry is a path, else a scene
