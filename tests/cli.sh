@@ -298,7 +298,7 @@ exits 2 render one.yaml -o ball-0.5; err_has 'did you mean ball-0.5.png?'
 exits 0 render "${small[@]}" -q one.yaml -o x.y.PNG; is_png x.y.PNG
 exits 0 render "${small[@]}" -q one.yaml -o 'made/{name}/of.{name}.png'; is_png made/one/of.one.png
 exits 2 render one.yaml -o none/x.png; err_has 'error[cannot-write]: cannot write none/x.png: No such file or directory; -o none/ would make the folder'; missing none
-exits 2 render one.yaml -o file/x.png; err_has 'file/x.png: Not a directory'
+for name in file/x.png file/deep/x.png; do exits 2 render one.yaml -o $name; err_has "error[cannot-write]: cannot write $name: file is a file"; err_lacks 'would make'; done
 exits 2 render one.yaml -o file/; err_has 'error[cannot-make-folder]: cannot make the folder file: it is a file'
 if [ -e full ]; then
     exits 2 render "${small[@]}" one.yaml -o full; err_has 'cannot write full: No space left on device'
@@ -431,6 +431,7 @@ ok "brackets and quotes do not split" [ "$(combinations -D 'v=[1,2,3],[a, (b), 1
 ok "a single list is not a sweep" [ "$(combinations -D 'v=[1,2,3]')" = params.yaml ]
 ok "ranges" [ "$(combinations -D a=1..3,7 | tr '\n' ';')" = 'a=1;a=2;a=3;a=7;' ]
 ok "ranges with steps" [ "$(combinations -D a=1..2:0.25 | tr '\n' ';')" = 'a=1;a=1.25;a=1.5;a=1.75;a=2;' ]
+ok "ranges with exponents" [ "$(combinations -D a=1e0..1.5E+0:5e-1 | tr '\n' ';')" = 'a=1;a=1.5;' ]
 ok "ranges that fall" [ "$(combinations -D a=9..4:3 | tr '\n' ';')" = 'a=9;a=6;' ]
 exits 1 check -q params.yaml -D a=1,-1,2; ok "each is checked" [ "$(cat out)" = 'params.yaml with a=-1: 1 error' ]
 

@@ -275,14 +275,29 @@ static bool check_writable(const struct report *report, const char *path) {
     return writable;
 }
 
+/* The folder of `path`, up to the first of its parts that is a file; NULL: none is. To be freed. */
+static char *file_in_way(const char *path) {
+    for (const char *slash = strchr(path, '/'); slash; slash = strchr(slash + 1, '/')) {
+        char *part = say_text("%.*s", (int)(slash - path), path);
+        if (*part && access(part, F_OK) == 0 && !path_is_folder(part)) return part;
+        free(part);
+    }
+    return NULL;
+}
+
 /* A FILE of -o has its folder already. */
 static bool check_folder(const struct report *report, const char *path) {
     const size_t length = path_folder_length(path);
     char *folder = say_text("%.*s", (int)length, path);
     const bool there = length == 0 || access(folder, F_OK) == 0;
-    if (!there)
+    const int reason = errno;
+    char *file = there ? NULL : file_in_way(path);
+    if (file)
+        report_failure(report, "cannot-write", "cannot write %s: %s is a file", path, file);
+    else if (!there)
         report_failure(report, "cannot-write", "cannot write %s: %s; -o %s would make the folder", path,
-                       strerror(errno), folder);
+                       strerror(reason), folder);
+    free(file);
     free(folder);
     return there;
 }
