@@ -98,7 +98,13 @@ if have git; then
     unset -f git; cd ..
 else left_out "the recipe of the README: no git"; fi
 exits 2 check @none; err_has 'cannot read none'
-last='check - @-'; "$monge" check - @- <list >out 2>err; status=$?; ok "standard input twice" [ $status -eq 2 ]; err_has 'standard input can be only one'
+for twice in 'check - @-' 'info - -' 'fmt --check @- -' 'render - - -o twice/ --stats twice.json --log twice.log'; do
+    last=$twice; "$monge" $twice <s/a.yaml >out 2>err; status=$?
+    ok "standard input twice" [ $status -eq 2 ]; err_has 'standard input can be only one'; no_out; missing twice twice.json twice.log
+done
+exits 2 render @ -o l/; err_has 'error[no-match]: @: a list has a name, or is @-, standard input'; missing l
+exits 0 render s/a.yaml -q "${small[@]}" -o picture.png; exits 2 render @picture.png -o l/; missing l
+ok "a picture is no list" [ "$(cat err)" = 'monge: error[no-match]: picture.png: this is a picture, and no list of scenes' ]; rm picture.png
 
 # what has a key of a scene beside others, or nearly `scene`, is meant as one; what has none is told, but for settings by name
 mkdir kinds; echo 'scene: [{sphere: {}}]' >kinds/a.yaml
@@ -205,7 +211,9 @@ for i in 1 2 3 4; do cp 06.yaml more-$i.yaml; done
 exits 1 render . -o lots/ "${small[@]}"; ok "failures, then counts" [ "$(tail -n 2 err)" = "$(printf 'failed lots/05-wrong.png  from ./05-wrong.yaml\n11 rendered, 1 failed')" ]
 exits 1 render . -j 4 -o doc/ "${small[@]}" --format json
 if have python3; then ok "a document alone" python3 -c 'import json; assert json.load(open("err"))[0]["code"] == "unknown-key"'; fi
-rm more-*
+printf '%s\n' . gone.yaml "x*.yaml" >list; exits 2 render @list -o lots/ "${small[@]}"
+ok "what stands for nothing as well" [ "$(tail -n 4 err)" = "$(printf 'failed x*.yaml\nfailed lots/05-wrong.png  from ./05-wrong.yaml\nfailed lots/gone.png  from gone.yaml\n11 rendered, 3 failed')" ]
+rm more-* list
 
 run render . -j 2 -o bar/ --progress json --log log2 "${mid[@]}"
 if have python3; then

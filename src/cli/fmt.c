@@ -60,8 +60,8 @@ static enum status format_scenes(const struct arguments *args, const struct scen
 enum status fmt_command(const struct arguments *args) {
     struct report report = {.format = MONGE_FORMAT_TEXT};
     struct scenes scenes;
-    scenes_find(&scenes, args, SCENES_AND_DEFINITIONS, NULL, &report);
-    const enum status status = format_scenes(args, &scenes, &report);
+    const bool good = scenes_find(&scenes, args, SCENES_AND_DEFINITIONS, NULL, &report);
+    const enum status status = good ? format_scenes(args, &scenes, &report) : STATUS_TROUBLE;
     scenes_free(&scenes);
     return status;
 }

@@ -25,7 +25,6 @@ struct search {
     struct report *report;
     enum scenes_wish wish;
     struct left_out no_scenes, special; /* special: pipes and devices, which may never end */
-    bool input_read;
 };
 
 /* ---- Paths ---- */
@@ -36,20 +35,23 @@ static bool is_there(const char *path) { return access(path, F_OK) == 0; }
 /* ---- What is wrong ---- */
 
 /* An operand, or a line of a list, stands for nothing. */
-static void fail_operand(struct search *search) {
-    search->scenes->status = STATUS_TROUBLE;
-    search->scenes->missing++;
+static void fail_operand(struct search *search, const char *path) {
+    struct scenes *scenes = search->scenes;
+    scenes->status = STATUS_TROUBLE;
+    scenes->lost = realloc(scenes->lost, (scenes->missing + 1) * sizeof *scenes->lost);
+    if (!scenes->lost) say_no_memory();
+    scenes->lost[scenes->missing++] = say_text("%s", path);
 }
 
 static void report_trouble(struct search *search, const char *path, const char *what) {
     report_failure(search->report, "no-match", "%s: %s", path, what);
-    fail_operand(search);
+    fail_operand(search, path);
 }
 
 /* errno says why. */
 static void fail_reading(struct search *search, const char *path) {
     report_failure(search->report, "cannot-read", "cannot read %s: %s", path, strerror(errno));
-    fail_operand(search);
+    fail_operand(search, path);
 }
 
 /* ---- Scenes ---- */
@@ -218,22 +220,26 @@ static void add_entries(struct search *search, const struct monge_text *text, co
 }
 
 static bool read_text(struct search *search, const char *path, struct monge_text *text) {
-    if (is_stream(path) && search->input_read) {
-        say_usage(search->args->command, "standard input can be only one scene, or one list");
-        search->scenes->status = STATUS_TROUBLE;
-        return false;
-    }
-    search->input_read |= is_stream(path);
     struct monge_diagnostics *diag = report_open(search->report);
     const bool good = diag && monge_text_read(path, search->limits, text, diag);
     if (diag) report_close(search->report, diag, true);
-    if (!good) fail_operand(search);
+    if (!good) fail_operand(search, path);
     return good;
+}
+
+/* Of which each NUL would end a name. */
+static bool is_picture(const struct monge_text *text) {
+    return text->size >= 8 && memcmp(text->bytes, "\x89PNG\r\n\x1a\n", 8) == 0;
 }
 
 static void add_list(struct search *search, const char *path) {
     struct monge_text text = {NULL, 0};
-    if (read_text(search, path, &text)) add_entries(search, &text, path);
+    if (!*path)
+        report_trouble(search, "@", "a list has a name, or is @-, standard input");
+    else if (read_text(search, path, &text) && is_picture(&text))
+        report_trouble(search, path, "this is a picture, and no list of scenes");
+    else if (text.bytes)
+        add_entries(search, &text, path);
     monge_text_free(&text);
 }
 
@@ -401,10 +407,20 @@ static void drop_repeated(struct scenes *scenes) {
     close_ranks(scenes);
 }
 
-void scenes_find(struct scenes *scenes, const struct arguments *args, enum scenes_wish wish,
+/* Standard input can be read once. */
+static bool check_input(const struct arguments *args) {
+    size_t count = 0;
+    for (size_t i = 0; i < args->count; i++)
+        count += is_stream(args->operands[i]) || strcmp(args->operands[i], "@-") == 0;
+    if (count > 1) say_usage(args->command, "standard input can be only one scene, or one list");
+    return count <= 1;
+}
+
+bool scenes_find(struct scenes *scenes, const struct arguments *args, enum scenes_wish wish,
                  const struct monge_limits *limits, struct report *report) {
     *scenes = (struct scenes){.status = STATUS_YES};
     struct search search = {.scenes = scenes, .args = args, .limits = limits, .report = report, .wish = wish};
+    if (!check_input(args)) return false;
     for (size_t i = 0; i < args->count; i++) add_operand(&search, args->operands[i]);
     name_from_root(&search);
     drop_repeated(scenes);
@@ -412,6 +428,7 @@ void scenes_find(struct scenes *scenes, const struct arguments *args, enum scene
     mention(&search, &search.special, "pipe, socket or device is", "pipes, sockets or devices are");
     free(search.no_scenes.names);
     free(search.special.names);
+    return true;
 }
 
 void scenes_free(struct scenes *scenes) {
@@ -419,6 +436,8 @@ void scenes_free(struct scenes *scenes) {
         free(scenes->all[i].path);
         free(scenes->all[i].name);
     }
+    for (size_t i = 0; i < scenes->missing; i++) free(scenes->lost[i]);
+    free(scenes->lost);
     free(scenes->all);
     monge_text_free(&scenes->input);
 }
