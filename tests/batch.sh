@@ -197,7 +197,17 @@ exits 1 render . -j 4 -o some/ --log log "${mid[@]}"; ok "the slow one comes fir
 ok "lines in order" [ "$(grep -o '"output": "[^"]*' log | cut -d'"' -f4 | sort -c && wc -l <log)" -eq 8 ]
 exits 1 render . -j 1 -o other/ -q "${mid[@]}"; for f in some/*.png; do same $f other/${f#some/}; done
 exits 1 render . -j 3 "${small[@]}" -q --log log; ok "a log grows" [ "$(wc -l <log)" -eq 16 ]
-printf torn >>log; exits 0 render 02.yaml -q "${small[@]}" --log log; ok "behind a torn line" sh -c 'tail -n 2 log | head -n 1 | grep -qx torn'
+printf other >>log; exits 0 render 02.yaml -q "${small[@]}" --log log; ok "behind a line of others" sh -c 'tail -n 2 log | head -n 1 | grep -qx other'
+cp log log.before
+for torn in '{' '{"started": "20' "$(tail -n 1 log | head -c -2)"; do
+    cp log.before log; printf '%s' "$torn" >>log; exits 0 render 02.yaml -q "${small[@]}" --log log
+    ok "a torn line is cut off" sh -c 'head -n -1 log | cmp - log.before && tail -n 1 log | grep -q "}$"'
+    printf '%s' "$torn" >log; exits 0 render 02.yaml -q "${small[@]}" --log log; ok "the only one" [ "$(wc -l <log)" -eq 1 ]
+done
+printf '{"started": "mine"}' >log; exits 0 render 02.yaml -q "${small[@]}" --log log; ok "a whole one stays" [ "$(head -n 1 log)" = '{"started": "mine"}' -a "$(wc -l <log)" -eq 2 ]
+rm log.before; head -c 8000 /dev/zero | tr '\0' '\n' >log
+(ulimit -f 8; "$monge" render 02.yaml 03.yaml 04.yaml -q "${small[@]}" --log log 2>err); status=$?; last='render under ulimit -f'
+ok "no room for a line" [ $status -eq 2 ]; err_has 'cannot write log: File too large'; ok "and no part of it" sh -c '[ "$(wc -c <log)" -eq 8000 ] || tail -c 2 log | grep -q "}$"'
 exits 2 render 02.yaml 03.yaml -q "${small[@]}" --log /dev/full; err_has 'error[cannot-write]: cannot write /dev/full: No space'; there 03.png; ok "told once" [ "$(grep -c 'No space' err)" -eq 1 ]
 exits 2 render 02.yaml --log no/log; err_has 'error[cannot-write]: cannot write no/log'
 exits 2 render 02.yaml -o - --log -; err_has '--log -: standard output takes the picture'
@@ -504,6 +514,10 @@ if [ -n "$apart" ]; then
     $apart "mount -t tmpfs -o size=8k none 2; '$monge' render [1245].yaml -j 1 --size 300x200 --log 4/log -o 2/; '$monge' render 1.yaml --size 16x12 -o 2/; head -c 8000 /dev/zero >2/rest; '$monge' render 1.yaml --size 300x200 -o 2/" >out 2>err
     ok "what there is no room for is told" [ "$(grep -c 'cannot write 2/[1245].png: No space' err)" -eq 5 ]
     ok "and not rendered after the first" [ "$(grep -c 'cannot write 2/[1245].png: No space left on device; it is not rendered' err)" -eq 4 ]; err_has 'wrote 2/1.png'; rm -f 4/log
+    last='with a log on a full disk'; mkdir logs
+    $apart "mount -t tmpfs -o size=12k none 2; head -c 4000 /dev/zero | tr '\\0' '\\n' >2/log; head -c 8192 /dev/zero >2/rest; '$monge' render 1.yaml 4.yaml --size 16x12 -q -o logs/ --log 2/log; echo \$? >left.ls; cp 2/log logs/; rm 2/rest; '$monge' render 1.yaml --size 16x12 -q -o logs/ --log 2/log; cp 2/log logs/after" >out 2>err
+    ok "a log on a full disk" [ "$(cat left.ls)" = 2 ]; err_has 'cannot write 2/log: No space left'; ok "has no part of a line" [ "$(wc -c <logs/log)" -eq 4000 ]
+    ok "and then a whole one" [ "$(wc -l <logs/after)" -eq 4001 -a "$(tail -n 1 logs/after | grep -c '^{"started.*}$')" -eq 1 ]; rm -r logs
     last='with a link out of a full disk'; mkdir elsewhere; echo old >elsewhere/1.png
     $apart "mount -t tmpfs -o size=4k none 2; ln -s ../elsewhere/1.png 2/1.png; head -c 4096 /dev/zero >2/rest; '$monge' render 1.yaml --size 16x12 -q -o 2/" 2>err; status=$?
     ok "the file is elsewhere" [ $status -eq 0 ]; ok "it is written" [ "$(wc -c <elsewhere/1.png)" -gt 100 ]
