@@ -68,6 +68,16 @@ cp list list.txt; exits 2 check list.txt s/a.yaml; err_has 'list.txt: a list of 
 cp s/a.yaml scene.txt; exits 0 check scene.txt; out_is 'scene.txt: ok'
 last='check (a pipe)'; "$monge" check <(cat s/a.yaml) >out 2>err; status=$?; ok "a pipe is read once" [ $status -eq 0 ]
 
+# names that would write to a terminal what they like
+mkdir wild; wild=$'wild/a\e[31m\nb'; cp s/a.yaml "$wild.yaml"; echo 'scene: [{sphere: {raduis: 1}}]' >"$wild-wrong.yaml"; : >"$wild-empty.yaml"
+printf 'materials: {"m\\e[31m": {diffuse: red}}\nscene: [{sphere: {}, material: "m\\e[31m", name: "x\\n"}]\n' >wild/c.yaml
+for command in check 'check -D a=1,2' info 'fmt --check' 'render -n' 'render --size 16x12 -o wild.d/' fmt; do
+    run $command wild; cat err out >said; ok "no control characters: monge $command" sh -c '! tr -d "\n" <said | grep -q "[[:cntrl:]]"'
+    ok "and one line: monge $command" sh -c '! grep -q "^b[.:-]" said'
+done
+exits 1 check wild; out_is "$(printf 'wild/%s\n' 'a?[31m?b.yaml: ok' 'a?[31m?b-wrong.yaml: 1 error' 'c.yaml: ok')"
+rm -r wild wild.d said
+
 # what is between NULs is a name as it stands
 mkdir names; odd=("names/two
 lines.yaml" ' names/blank .yaml' '@names/at.yaml' '#names/hash.yaml' 'names/[ab].yaml' -.yaml)
@@ -75,9 +85,9 @@ mkdir -p ' names' '@names' '#names'; for f in "${odd[@]}"; do cp s/a.yaml "./$f"
 printf '%s\0' "${odd[@]}" >zeros; printf '%s\0\0%s' "${odd[@]:0:2}" >unended
 for from in @zeros - @-; do
     last="check $from <zeros"; "$monge" check $from <zeros >out 2>err; status=$?
-    ok "all names" [ $status -eq 0 ]; out_is "$(printf '%s: ok\n' "${odd[@]}")"
+    ok "all names" [ $status -eq 0 ]; out_is "$(printf '%s: ok\n' "${odd[@]//$'\n'/?}")"
 done
-exits 0 check @unended; out_is "$(printf '%s: ok\n' "${odd[@]:0:2}")"
+exits 0 check @unended; out_is "$(printf '%s: ok\n' 'names/two?lines.yaml' "${odd[1]}")"
 last='render @-'; find names -name '*.yaml' -print0 | sort -z | "$monge" render @- -q "${small[@]}" -o zero/ 2>err; there zero/'two
 lines.png' zero/'[ab].png'
 

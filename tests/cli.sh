@@ -47,6 +47,7 @@ ok 'numbers by their value, words as a shell takes them' \
     grep -qa -e "--size 9x8 --samples 2 --region 0,0,9,8 --shadow 0.5 -D a=-0.2 -D 'b=1 + 2'" asked.png
 exits 2 version x; err_has 'version: expected nothing more'
 exits 0 --help; out_has 'usage: monge COMMAND'; out_has 'render SCENE...'; no_err
+ok "lines of at most 80 columns" [ -z "$(awk 'length > 80' out)" ]
 exits 0 -h; out_has 'usage: monge COMMAND'
 exits 0 help render; cp out expected
 for form in --help -h; do exits 0 $form render; ok "$form render is help render" cmp out expected; done

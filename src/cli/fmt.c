@@ -14,7 +14,7 @@ static enum status settle(const struct arguments *args, const char *path, const 
                           const struct monge_text *formatted, struct monge_diagnostics *diag) {
     const bool same = text->size == formatted->size && memcmp(text->bytes, formatted->bytes, text->size) == 0;
     if (args->option[OPTION_CHECK_ONLY].given) {
-        if (!same) printf("%s\n", path);
+        if (!same) say_line(stdout, "%s", path);
         return same ? STATUS_YES : STATUS_NO;
     }
     if (same && !is_standard(path)) return STATUS_YES;
