@@ -206,7 +206,8 @@ enum monge_text_kind {
     MONGE_TEXT_SCENE, /* it has `scene`, or a key of a scene beside one that is none, or nearly `scene`; or it is not
                          YAML: so that what is wrong with it will be told */
     MONGE_TEXT_DEFINITIONS, /* it has no `scene`, and all of its keys may be in a file that scenes include */
-    MONGE_TEXT_OTHER,       /* it has no key of a scene */
+    MONGE_TEXT_OTHER,       /* it has no key of a scene, */
+    MONGE_TEXT_EMPTY,       /* as it has nothing but comments */
 };
 enum monge_text_kind monge_text_kind(const struct monge_text *text, const struct monge_limits *limits);
 

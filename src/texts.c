@@ -139,7 +139,9 @@ static enum monge_text_kind parse_kind(struct arena *arena, struct diagnostics *
     arena->limit = limits.memory_bytes;
     const struct source *source = file_from_memory(arena, "", text->bytes, text->size);
     const struct node *root = node_parse(arena, diag, source, &node_limits, &stream, &problem);
-    return root ? kind_of(root) : MONGE_TEXT_SCENE;
+    if (root) return kind_of(root);
+    const bool empty = diag->first && strcmp(diag->first->code, "empty-file") == 0;
+    return empty ? MONGE_TEXT_EMPTY : MONGE_TEXT_SCENE;
 }
 
 enum monge_text_kind monge_text_kind(const struct monge_text *text, const struct monge_limits *limits) {

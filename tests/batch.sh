@@ -68,6 +68,16 @@ cp list list.txt; exits 2 check list.txt s/a.yaml; err_has 'list.txt: a list of 
 cp s/a.yaml scene.txt; exits 0 check scene.txt; out_is 'scene.txt: ok'
 last='check (a pipe)'; "$monge" check <(cat s/a.yaml) >out 2>err; status=$?; ok "a pipe is read once" [ $status -eq 0 ]
 
+# names that would write to a terminal what they like
+mkdir wild; wild=$'wild/a\e[31m\nb'; cp s/a.yaml "$wild.yaml"; echo 'scene: [{sphere: {raduis: 1}}]' >"$wild-wrong.yaml"; : >"$wild-empty.yaml"
+printf 'materials: {"m\\e[31m": {diffuse: red}}\nscene: [{sphere: {}, material: "m\\e[31m", name: "x\\n"}]\n' >wild/c.yaml
+for command in check 'check -D a=1,2' info 'fmt --check' 'render -n' 'render --size 16x12 -o wild.d/' fmt; do
+    run $command wild; cat err out >said; ok "no control characters: monge $command" sh -c '! tr -d "\n" <said | grep -q "[[:cntrl:]]"'
+    ok "and one line: monge $command" sh -c '! grep -q "^b[.:-]" said'
+done
+exits 1 check wild; out_is "$(printf 'wild/%s\n' 'a?[31m?b.yaml: ok' 'a?[31m?b-wrong.yaml: 1 error' 'c.yaml: ok')"
+rm -r wild wild.d said
+
 # what is between NULs is a name as it stands
 mkdir names; odd=("names/two
 lines.yaml" ' names/blank .yaml' '@names/at.yaml' '#names/hash.yaml' 'names/[ab].yaml' -.yaml)
@@ -75,9 +85,9 @@ mkdir -p ' names' '@names' '#names'; for f in "${odd[@]}"; do cp s/a.yaml "./$f"
 printf '%s\0' "${odd[@]}" >zeros; printf '%s\0\0%s' "${odd[@]:0:2}" >unended
 for from in @zeros - @-; do
     last="check $from <zeros"; "$monge" check $from <zeros >out 2>err; status=$?
-    ok "all names" [ $status -eq 0 ]; out_is "$(printf '%s: ok\n' "${odd[@]}")"
+    ok "all names" [ $status -eq 0 ]; out_is "$(printf '%s: ok\n' "${odd[@]//$'\n'/?}")"
 done
-exits 0 check @unended; out_is "$(printf '%s: ok\n' "${odd[@]:0:2}")"
+exits 0 check @unended; out_is "$(printf '%s: ok\n' 'names/two?lines.yaml' "${odd[1]}")"
 last='render @-'; find names -name '*.yaml' -print0 | sort -z | "$monge" render @- -q "${small[@]}" -o zero/ 2>err; there zero/'two
 lines.png' zero/'[ab].png'
 
@@ -98,7 +108,13 @@ if have git; then
     unset -f git; cd ..
 else left_out "the recipe of the README: no git"; fi
 exits 2 check @none; err_has 'cannot read none'
-last='check - @-'; "$monge" check - @- <list >out 2>err; status=$?; ok "standard input twice" [ $status -eq 2 ]; err_has 'standard input can be only one'
+for twice in 'check - @-' 'info - -' 'fmt --check @- -' 'render - - -o twice/ --stats twice.json --log twice.log'; do
+    last=$twice; "$monge" $twice <s/a.yaml >out 2>err; status=$?
+    ok "standard input twice" [ $status -eq 2 ]; err_has 'standard input can be only one'; no_out; missing twice twice.json twice.log
+done
+exits 2 render @ -o l/; err_has 'error[no-match]: @: a list has a name, or is @-, standard input'; missing l
+exits 0 render s/a.yaml -q "${small[@]}" -o picture.png; exits 2 render @picture.png -o l/; missing l
+ok "a picture is no list" [ "$(cat err)" = 'monge: error[no-match]: picture.png: this is a picture, and no list of scenes' ]; rm picture.png
 
 # what has a key of a scene beside others, or nearly `scene`, is meant as one; what has none is told, but for settings by name
 mkdir kinds; echo 'scene: [{sphere: {}}]' >kinds/a.yaml
@@ -118,6 +134,23 @@ exits 0 render -q kinds/B.YAML "${small[@]}"; there B.png
 for i in $(seq 10 21); do echo 'on: push' >kinds/$i.yml; done
 exits 0 info kinds; err_has '12 files without a `scene` are left out: kinds/10.yml, '; err_has 'kinds/19.yml, ...'; err_lacks kinds/20.yml
 exits 0 check kinds; err_has 'kinds/21.yml, kinds/golden.yaml'
+
+# what is empty and what may never end are left out, but for those that are named
+mkdir left; cp s/a.yaml left/; : >left/empty.yaml; printf '# to be written\n\n' >left/idea.yml; mkfifo left/pipe.yaml
+left='2 files without a `scene` are left out: left/empty.yaml, left/idea.yml'
+for from in left 'left/*.y*ml' 'left/**/*'; do
+    for command in 'check' 'info' 'fmt --check' 'render --size 16x12 -o left.d/' 'render -n'; do
+        last="$command $from"; timeout -s KILL 60 "$monge" $command "$from" >out 2>err </dev/null; status=$?
+        ok "a pipe that nobody writes to" [ $status -eq 0 ]; err_has "$left"; err_has '1 pipe, socket or device is left out: left/pipe.yaml'
+    done
+    "$monge" check "$from" >out 2>err; out_is 'left/a.yaml: ok'
+done
+mkfifo left/q.yaml; exits 0 info left; err_has '2 pipes, sockets or devices are left out: left/pipe.yaml, left/q.yaml'
+exits 0 render -q left "${small[@]}" -o left.d/; no_err
+last='check left/[pq]*.yaml'; timeout -s KILL 60 "$monge" check 'left/[pqe]*.yaml' >out 2>err; status=$?
+ok "none is left" [ $status -eq 2 ]; err_has 'error[no-match]: left/[pqe]*.yaml: no scene matches'
+cat s/a.yaml >left/pipe.yaml & exits 0 check left/pipe.yaml; wait $!; out_is 'left/pipe.yaml: ok'
+exits 1 check left/empty.yaml; err_has 'error[empty-file]'
 
 printf 'scene:   []\n' >s/odd.yaml; printf 'params:   {r: 1}\n' >s/defs.yaml
 exits 1 fmt --check s; out_is "$(printf 's/%s\n' defs.yaml json.yaml odd.yaml)"
@@ -174,7 +207,17 @@ exits 1 render . -j 4 -o some/ --log log "${mid[@]}"; ok "the slow one comes fir
 ok "lines in order" [ "$(grep -o '"output": "[^"]*' log | cut -d'"' -f4 | sort -c && wc -l <log)" -eq 8 ]
 exits 1 render . -j 1 -o other/ -q "${mid[@]}"; for f in some/*.png; do same $f other/${f#some/}; done
 exits 1 render . -j 3 "${small[@]}" -q --log log; ok "a log grows" [ "$(wc -l <log)" -eq 16 ]
-printf torn >>log; exits 0 render 02.yaml -q "${small[@]}" --log log; ok "behind a torn line" sh -c 'tail -n 2 log | head -n 1 | grep -qx torn'
+printf other >>log; exits 0 render 02.yaml -q "${small[@]}" --log log; ok "behind a line of others" sh -c 'tail -n 2 log | head -n 1 | grep -qx other'
+cp log log.before
+for torn in '{' '{"started": "20' "$(tail -n 1 log | head -c -2)"; do
+    cp log.before log; printf '%s' "$torn" >>log; exits 0 render 02.yaml -q "${small[@]}" --log log
+    ok "a torn line is cut off" sh -c 'head -n -1 log | cmp - log.before && tail -n 1 log | grep -q "}$"'
+    printf '%s' "$torn" >log; exits 0 render 02.yaml -q "${small[@]}" --log log; ok "the only one" [ "$(wc -l <log)" -eq 1 ]
+done
+printf '{"started": "mine"}' >log; exits 0 render 02.yaml -q "${small[@]}" --log log; ok "a whole one stays" [ "$(head -n 1 log)" = '{"started": "mine"}' -a "$(wc -l <log)" -eq 2 ]
+rm log.before; head -c 8000 /dev/zero | tr '\0' '\n' >log
+(ulimit -f 8; "$monge" render 02.yaml 03.yaml 04.yaml -q "${small[@]}" --log log 2>err); status=$?; last='render under ulimit -f'
+ok "no room for a line" [ $status -eq 2 ]; err_has 'cannot write log: File too large'; ok "and no part of it" sh -c '[ "$(wc -c <log)" -eq 8000 ] || tail -c 2 log | grep -q "}$"'
 exits 2 render 02.yaml 03.yaml -q "${small[@]}" --log /dev/full; err_has 'error[cannot-write]: cannot write /dev/full: No space'; there 03.png; ok "told once" [ "$(grep -c 'No space' err)" -eq 1 ]
 exits 2 render 02.yaml --log no/log; err_has 'error[cannot-write]: cannot write no/log'
 exits 2 render 02.yaml -o - --log -; err_has '--log -: standard output takes the picture'
@@ -188,7 +231,9 @@ for i in 1 2 3 4; do cp 06.yaml more-$i.yaml; done
 exits 1 render . -o lots/ "${small[@]}"; ok "failures, then counts" [ "$(tail -n 2 err)" = "$(printf 'failed lots/05-wrong.png  from ./05-wrong.yaml\n11 rendered, 1 failed')" ]
 exits 1 render . -j 4 -o doc/ "${small[@]}" --format json
 if have python3; then ok "a document alone" python3 -c 'import json; assert json.load(open("err"))[0]["code"] == "unknown-key"'; fi
-rm more-*
+printf '%s\n' . gone.yaml "x*.yaml" >list; exits 2 render @list -o lots/ "${small[@]}"
+ok "what stands for nothing as well" [ "$(tail -n 4 err)" = "$(printf 'failed x*.yaml\nfailed lots/05-wrong.png  from ./05-wrong.yaml\nfailed lots/gone.png  from gone.yaml\n11 rendered, 3 failed')" ]
+rm more-* list
 
 run render . -j 2 -o bar/ --progress json --log log2 "${mid[@]}"
 if have python3; then
@@ -479,6 +524,10 @@ if [ -n "$apart" ]; then
     $apart "mount -t tmpfs -o size=8k none 2; '$monge' render [1245].yaml -j 1 --size 300x200 --log 4/log -o 2/; '$monge' render 1.yaml --size 16x12 -o 2/; head -c 8000 /dev/zero >2/rest; '$monge' render 1.yaml --size 300x200 -o 2/" >out 2>err
     ok "what there is no room for is told" [ "$(grep -c 'cannot write 2/[1245].png: No space' err)" -eq 5 ]
     ok "and not rendered after the first" [ "$(grep -c 'cannot write 2/[1245].png: No space left on device; it is not rendered' err)" -eq 4 ]; err_has 'wrote 2/1.png'; rm -f 4/log
+    last='with a log on a full disk'; mkdir logs
+    $apart "mount -t tmpfs -o size=12k none 2; head -c 4000 /dev/zero | tr '\\0' '\\n' >2/log; head -c 8192 /dev/zero >2/rest; '$monge' render 1.yaml 4.yaml --size 16x12 -q -o logs/ --log 2/log; echo \$? >left.ls; cp 2/log logs/; rm 2/rest; '$monge' render 1.yaml --size 16x12 -q -o logs/ --log 2/log; cp 2/log logs/after" >out 2>err
+    ok "a log on a full disk" [ "$(cat left.ls)" = 2 ]; err_has 'cannot write 2/log: No space left'; ok "has no part of a line" [ "$(wc -c <logs/log)" -eq 4000 ]
+    ok "and then a whole one" [ "$(wc -l <logs/after)" -eq 4001 -a "$(tail -n 1 logs/after | grep -c '^{"started.*}$')" -eq 1 ]; rm -r logs
     last='with a link out of a full disk'; mkdir elsewhere; echo old >elsewhere/1.png
     $apart "mount -t tmpfs -o size=4k none 2; ln -s ../elsewhere/1.png 2/1.png; head -c 4096 /dev/zero >2/rest; '$monge' render 1.yaml --size 16x12 -q -o 2/" 2>err; status=$?
     ok "the file is elsewhere" [ $status -eq 0 ]; ok "it is written" [ "$(wc -c <elsewhere/1.png)" -gt 100 ]

@@ -47,6 +47,7 @@ ok 'numbers by their value, words as a shell takes them' \
     grep -qa -e "--size 9x8 --samples 2 --region 0,0,9,8 --shadow 0.5 -D a=-0.2 -D 'b=1 + 2'" asked.png
 exits 2 version x; err_has 'version: expected nothing more'
 exits 0 --help; out_has 'usage: monge COMMAND'; out_has 'render SCENE...'; no_err
+ok "lines of at most 80 columns" [ -z "$(awk 'length > 80' out)" ]
 exits 0 -h; out_has 'usage: monge COMMAND'
 exits 0 help render; cp out expected
 for form in --help -h; do exits 0 $form render; ok "$form render is help render" cmp out expected; done
@@ -275,11 +276,18 @@ exits 2 render one.yaml two.yml -o x.png; err_has '-o x.png is one file for 2 sc
 exits 2 render a/one.yaml b/one.yaml; err_has 'a/one.yaml and b/one.yaml would both write'; err_has 'one.png; with --root DIR they keep their folders'; missing one.png
 ln -s . link
 exits 2 render one.yaml two.yml -o 'link/{name}.png' --stats one.png; err_has 'would both write'; missing one.png
-exits 2 render one.yaml -o one.yaml; err_has 'one.yaml would be written over'
+cp two.yml new.yml; for name in one.yaml new.yml none.YAML notes.txt; do
+    exits 2 render one.yaml -o $name; err_has "-o $name: pictures are PNG; did you mean ${name%.*}.png?"
+done
+ok "the other scene is whole" cmp new.yml two.yml; missing none.YAML notes.txt; rm new.yml
+for option in stats:json log:log; do
+    exits 2 render one.yaml -q --${option%:*} two.yml; err_has "--${option%:*} two.yml is called like a scene; did you mean two.${option#*:}?"
+    ok "the other scene is whole" grep -q scene two.yml
+done
 exits 2 render one.yaml two.yml -o link/one.yaml; err_has 'is one file'
 ln -s one.yaml alias.png
 exits 2 render one.yaml -o alias.png; err_has 'one.yaml would be written over'
-exits 2 render one.yaml --stats link/one.yaml; err_has 'one.yaml would be written over by the output of --stats'
+exits 2 render one.yaml --stats link/alias.png; err_has 'one.yaml would be written over by the output of --stats'
 ok "the scene is whole" cmp one.yaml a/one.yaml
 
 for name in x.jpg x.JPEG none/y.gif; do exits 2 render one.yaml -o $name; err_has "-o $name: pictures are PNG; did you mean ${name%.*}.png?"; missing $name; done
@@ -287,10 +295,11 @@ for name in picture none/picture none.d/picture .png '{name}' 'x.{name}'; do
     exits 2 render one.yaml -o "$name"; err_has "-o $name: pictures are PNG; did you mean $name.png?"; missing "$name"
 done
 exits 2 render turn.yaml --frames all -o 'x.%04d'; err_has 'did you mean x.%04d.png?'
-exits 0 render "${small[@]}" -q one.yaml -o x.y; is_png x.y
+exits 2 render one.yaml -o ball-0.5; err_has 'did you mean ball-0.5.png?'
+exits 0 render "${small[@]}" -q one.yaml -o x.y.PNG; is_png x.y.PNG
 exits 0 render "${small[@]}" -q one.yaml -o 'made/{name}/of.{name}.png'; is_png made/one/of.one.png
 exits 2 render one.yaml -o none/x.png; err_has 'error[cannot-write]: cannot write none/x.png: No such file or directory; -o none/ would make the folder'; missing none
-exits 2 render one.yaml -o file/x.png; err_has 'file/x.png: Not a directory'
+for name in file/x.png file/deep/x.png; do exits 2 render one.yaml -o $name; err_has "error[cannot-write]: cannot write $name: file is a file"; err_lacks 'would make'; done
 exits 2 render one.yaml -o file/; err_has 'error[cannot-make-folder]: cannot make the folder file: it is a file'
 if [ -e full ]; then
     exits 2 render "${small[@]}" one.yaml -o full; err_has 'cannot write full: No space left on device'
@@ -424,6 +433,7 @@ ok "brackets and quotes do not split" [ "$(combinations -D 'v=[1,2,3],[a, (b), 1
 ok "a single list is not a sweep" [ "$(combinations -D 'v=[1,2,3]')" = params.yaml ]
 ok "ranges" [ "$(combinations -D a=1..3,7 | tr '\n' ';')" = 'a=1;a=2;a=3;a=7;' ]
 ok "ranges with steps" [ "$(combinations -D a=1..2:0.25 | tr '\n' ';')" = 'a=1;a=1.25;a=1.5;a=1.75;a=2;' ]
+ok "ranges with exponents" [ "$(combinations -D a=1e0..1.5E+0:5e-1 | tr '\n' ';')" = 'a=1;a=1.5;' ]
 ok "ranges that fall" [ "$(combinations -D a=9..4:3 | tr '\n' ';')" = 'a=9;a=6;' ]
 exits 1 check -q params.yaml -D a=1,-1,2; ok "each is checked" [ "$(cat out)" = 'params.yaml with a=-1: 1 error' ]
 
@@ -536,7 +546,7 @@ exits 2 render view.yaml move.yaml --frames all -o 'x{frame}.png'; err_has 'woul
 exits 2 render view.yaml --frames all -o -; err_has 'only one picture'; no_out
 exits 0 render -q "${small[@]}" view.yaml --frames 2 -o -; ok "one frame to stdout" cmp out all/view-0002.png
 cp view.yaml 07.yaml
-exits 2 render 07.yaml --frames 6-8 -o '{frame}.yaml'; err_has '07.yaml would be written over'
+ln -s 07.yaml 07.png; exits 2 render 07.yaml --frames 6-8 -o '{frame}.png'; err_has '07.yaml would be written over'
 ok "the scene is whole" cmp view.yaml 07.yaml
 
 # an include serves all frames; a scene is read once, as only a pipe can tell

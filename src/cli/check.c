@@ -6,18 +6,19 @@
 #include "cli/load.h"
 #include "cli/say.h"
 
-static void print_count(const char *before, unsigned count, const char *what) {
-    printf("%s%u %s%s", before, count, what, count == 1 ? "" : "s");
+static char *count_text(unsigned count, const char *what) {
+    return say_text("%u %s%s", count, what, count == 1 ? "" : "s");
 }
 
 static void print_verdict(const char *scene, const struct load *load) {
-    printf("%s:", scene);
-    if (load->status == STATUS_YES) printf(" ok%s", load->warnings > 0 ? "," : "");
-    if (load->status == STATUS_TROUBLE) printf(" not read");
-    if (load->status == STATUS_NO) print_count(" ", load->errors, "error");
-    if (load->status == STATUS_NO && load->warnings > 0) printf(",");
-    if (load->warnings > 0) print_count(" ", load->warnings, "warning");
-    printf("\n");
+    char *errors = count_text(load->errors, "error"), *warnings = count_text(load->warnings, "warning");
+    const char *verdict = load->status == STATUS_YES ? "ok" : load->status == STATUS_NO ? errors : "not read";
+    if (load->warnings > 0)
+        say_line(stdout, "%s: %s, %s", scene, verdict, warnings);
+    else
+        say_line(stdout, "%s: %s", scene, verdict);
+    free(errors);
+    free(warnings);
     streams_flush();
 }
 

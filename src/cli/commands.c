@@ -169,8 +169,7 @@ static enum status version_command(const struct arguments *args) {
 const char *const STATUS_DOC[] = {
     [STATUS_YES] = "all is well",
     [STATUS_NO] = ("a scene is wrong, not formatted (fmt --check) or not the same as its golden (test), the "
-                   "others having "
-                   "been dealt with; or pictures differ (diff)"),
+                   "others having been dealt with; or pictures differ (diff)"),
     [STATUS_TROUBLE] = "trouble: wrong usage, a file that cannot be read or written, no memory",
 };
 

@@ -14,7 +14,7 @@ static enum status settle(const struct arguments *args, const char *path, const 
                           const struct monge_text *formatted, struct monge_diagnostics *diag) {
     const bool same = text->size == formatted->size && memcmp(text->bytes, formatted->bytes, text->size) == 0;
     if (args->option[OPTION_CHECK_ONLY].given) {
-        if (!same) printf("%s\n", path);
+        if (!same) say_line(stdout, "%s", path);
         return same ? STATUS_YES : STATUS_NO;
     }
     if (same && !is_standard(path)) return STATUS_YES;
@@ -60,8 +60,8 @@ static enum status format_scenes(const struct arguments *args, const struct scen
 enum status fmt_command(const struct arguments *args) {
     struct report report = {.format = MONGE_FORMAT_TEXT};
     struct scenes scenes;
-    scenes_find(&scenes, args, SCENES_AND_DEFINITIONS, NULL, &report);
-    const enum status status = format_scenes(args, &scenes, &report);
+    const bool good = scenes_find(&scenes, args, SCENES_AND_DEFINITIONS, NULL, &report);
+    const enum status status = good ? format_scenes(args, &scenes, &report) : STATUS_TROUBLE;
     scenes_free(&scenes);
     return status;
 }

@@ -57,7 +57,10 @@ static void print_overview(FILE *out) {
     fputs("\n`monge help COMMAND` tells more, `monge help language` how to write scenes;\n"
           "`monge help --man` is the manual page.\nExit status:\n",
           out);
-    for (int s = 0; s <= STATUS_TROUBLE; s++) fprintf(out, "  %d  %s\n", s, STATUS_DOC[s]);
+    for (int s = 0; s <= STATUS_TROUBLE; s++) {
+        fprintf(out, "  %d  ", s);
+        monge_write_wrapped(STATUS_DOC[s], 5, 5, out);
+    }
     monge_write_wrapped(SIGNAL_DOC, 0, 0, out);
 }
 

@@ -11,7 +11,7 @@ static enum status tell(struct loader *loader, const char *path, const struct mo
     struct load load = load_scene(loader, path, defines, 0);
     if (load.scene) {
         char *with = sweep_describe(&loader->sweep, defines);
-        if (titled) printf("%s%s%s\n", path, *with ? " with " : "", with);
+        if (titled) say_line(stdout, "%s%s%s", path, *with ? " with " : "", with);
         free(with);
         if (!monge_scene_info(load.scene, format, stdout)) {
             say_error("%s: no memory for %zu primitives", path, monge_scene_primitives(load.scene));

@@ -10,8 +10,7 @@ bool loader_begin(struct loader *loader, const struct arguments *args) {
         !report_begin(&loader->report, args))
         return false;
     sweep_warn(args, "", &loader->report);
-    scenes_find(&loader->scenes, args, SCENES_ALONE, &loader->limits.load, &loader->report);
-    return true;
+    return scenes_find(&loader->scenes, args, SCENES_ALONE, &loader->limits.load, &loader->report);
 }
 
 static void close_last(struct loader *loader) {

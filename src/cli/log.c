@@ -9,12 +9,32 @@
 #include <time.h>
 #include <unistd.h>
 
-/* Behind a line that a full disk has cut off, a new one begins. */
+#include "cli/append.h"
+
+enum { LINE_ROOM = 1 << 16 }; /* bytes of the log that are looked at for its last line */
+
+static const char LINE_BEGIN[] = "{\"started\": \"";
+
+/* Whether the text is the beginning of a line of ours, and not all of it. */
+static bool is_torn(const char *text, size_t length) {
+    const size_t begin = sizeof LINE_BEGIN - 1;
+    return memcmp(text, LINE_BEGIN, length < begin ? length : begin) == 0 && text[length - 1] != '}';
+}
+
+/* A last line that was torn, as by a loss of power, is cut off; behind another one without its end a new line begins. */
 static void end_line(int fd) {
+    static char end[LINE_ROOM];
     struct stat status;
-    char last = '\n';
-    if (fstat(fd, &status) != 0 || !S_ISREG(status.st_mode) || status.st_size == 0) return;
-    if (pread(fd, &last, 1, status.st_size - 1) == 1 && last != '\n') (void)!write(fd, "\n", 1);
+    if (fstat(fd, &status) != 0 || !S_ISREG(status.st_mode)) return;
+    const off_t from = status.st_size > LINE_ROOM ? status.st_size - LINE_ROOM : 0;
+    const ssize_t size = pread(fd, end, LINE_ROOM, from);
+    if (size <= 0 || end[size - 1] == '\n') return;
+    const char *before = memrchr(end, '\n', (size_t)size);
+    const size_t line = before ? (size_t)(before - end) + 1 : 0;
+    if ((before || from == 0) && is_torn(end + line, (size_t)size - line))
+        (void)!ftruncate(fd, from + (off_t)line);
+    else
+        (void)!write(fd, "\n", 1);
 }
 
 static void note_start(struct log *log) {
@@ -45,18 +65,6 @@ bool log_open(struct log *log, const char *path, const struct report *report) {
     return false;
 }
 
-/* One write for all, unless it is a pipe that takes less, or a signal comes. */
-static bool write_all(int fd, const char *text, size_t size) {
-    while (size > 0) {
-        const ssize_t written = write(fd, text, size);
-        if (written < 0 && errno == EINTR) continue;
-        if (written < 0) return false;
-        text += written;
-        size -= (size_t)written;
-    }
-    return true;
-}
-
 /* With its end. NULL: no memory. To be freed. */
 static char *make_line(const struct log *log, const struct picture *picture) {
     char *line = NULL;
@@ -80,7 +88,7 @@ void log_keep(struct log *log, size_t unit, const struct picture *picture) {
 void log_picture(struct log *log, const struct picture *picture) {
     if (!log->path) return;
     char *line = make_line(log, picture);
-    const bool good = line && write_all(log->fd, line, strlen(line));
+    const bool good = line && append_whole(log->fd, line);
     if (!good && !log->failed)
         report_failure(log->report, "cannot-write", "cannot write %s: %s", log->path, strerror(errno));
     log->failed |= !good;

@@ -10,6 +10,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "cli/append.h"
 #include "cli/say.h"
 
 /* ---- Files ---- */
@@ -34,17 +35,6 @@ static char *read_from(int fd, off_t from) {
     }
     if (text) text[length] = '\0';
     return text;
-}
-
-static bool write_text(int fd, const char *text) {
-    for (size_t left = strlen(text); left > 0;) {
-        const ssize_t written = write(fd, text, left);
-        if (written < 0 && errno == EINTR) continue;
-        if (written < 0) return false;
-        text += written;
-        left -= (size_t)written;
-    }
-    return true;
 }
 
 /* The next line, ended by a zero instead; NULL: there is none that is whole. */
@@ -105,7 +95,7 @@ static void move_lines(const struct log_waiting *waiting, int log) {
     bool good = true;
     for (size_t i = written ? count_written(lines, count, written) : 0; good && i < count; i++) {
         char *line = say_text("%s\n", lines[i].text);
-        good = write_text(log, line);
+        good = append_whole(log, line);
         free(line);
     }
     if (good && (written || !head)) (void)!ftruncate(waiting->fd, 0);
@@ -148,7 +138,7 @@ void log_waiting_add(struct log_waiting *waiting, int log, size_t unit, const ch
     pthread_mutex_lock(&waiting->lock);
     char *head = waiting->count == 0 ? say_text("%lld\n", (long long)file_size(log)) : say_text("%s", "");
     char *text = say_text("%s%zu\t%s", head, unit, line);
-    write_text(waiting->fd, text); /* where there is no room, the log will tell */
+    append_whole(waiting->fd, text); /* where there is no room, the log will tell */
     waiting->count++;
     free(text);
     free(head);

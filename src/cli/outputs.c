@@ -11,6 +11,7 @@
 #include "cli/paths.h"
 #include "cli/pattern.h"
 #include "cli/say.h"
+#include "cli/scene_path.h"
 
 /* ---- Names ---- */
 
@@ -100,9 +101,19 @@ static bool check_pattern(const struct plan *plan) {
     return false;
 }
 
-static bool check_kind(const struct plan *plan) {
+/* What is called like a scene would write over one, were it another than is rendered. */
+static bool check_no_scene(const char *option, const char *path, const char *extension) {
+    const char *end = path ? scene_extension(path) : NULL;
+    if (!end || path_is_special(path)) return true;
+    say_usage(COMMAND_RENDER, "%s %s is called like a scene; did you mean %.*s%s?", option, path,
+              (int)(end - path), path, extension);
+    return false;
+}
+
+static bool check_kinds(const struct plan *plan) {
     const char *wanted = plan->wanted;
-    return !wanted || is_stream(wanted) || path_check_picture(COMMAND_RENDER, "-o", wanted);
+    return (!wanted || is_stream(wanted) || path_check_picture(COMMAND_RENDER, "-o", wanted)) &&
+           check_no_scene("--stats", plan->stats, ".json") && check_no_scene("--log", plan->log, ".log");
 }
 
 /* ---- Conflicts ---- */
@@ -264,14 +275,29 @@ static bool check_writable(const struct report *report, const char *path) {
     return writable;
 }
 
+/* The folder of `path`, up to the first of its parts that is a file; NULL: none is. To be freed. */
+static char *file_in_way(const char *path) {
+    for (const char *slash = strchr(path, '/'); slash; slash = strchr(slash + 1, '/')) {
+        char *part = say_text("%.*s", (int)(slash - path), path);
+        if (*part && access(part, F_OK) == 0 && !path_is_folder(part)) return part;
+        free(part);
+    }
+    return NULL;
+}
+
 /* A FILE of -o has its folder already. */
 static bool check_folder(const struct report *report, const char *path) {
     const size_t length = path_folder_length(path);
     char *folder = say_text("%.*s", (int)length, path);
     const bool there = length == 0 || access(folder, F_OK) == 0;
-    if (!there)
+    const int reason = errno;
+    char *file = there ? NULL : file_in_way(path);
+    if (file)
+        report_failure(report, "cannot-write", "cannot write %s: %s is a file", path, file);
+    else if (!there)
         report_failure(report, "cannot-write", "cannot write %s: %s; -o %s would make the folder", path,
-                       strerror(errno), folder);
+                       strerror(reason), folder);
+    free(file);
     free(folder);
     return there;
 }
@@ -347,7 +373,7 @@ bool plan_begin(struct plan *plan, const struct arguments *args, const struct sc
         .scenes = scenes,
         .count = scenes->count * sweep->total,
     };
-    return check_pattern(plan) && check_kind(plan) && make_outputs(plan) && check_streams(plan) &&
+    return check_pattern(plan) && check_kinds(plan) && make_outputs(plan) && check_streams(plan) &&
            check_files(plan) && (!plan->stats || check_writable(report, plan->stats));
 }
 

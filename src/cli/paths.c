@@ -39,21 +39,21 @@ size_t path_folder_length(const char *path) {
     return slash ? (size_t)(slash - path) + 1 : 0;
 }
 
-static bool is_of_other_pictures(const char *extension) {
-    static const char *const others[] = {"jpg",  "jpeg", "gif", "bmp", "tif", "tiff", "webp",
-                                         "avif", "ppm",  "exr", "hdr", "tga", "svg",  "pdf"};
+/* Extensions that stand for .png where a picture was meant; any other may be a part of the name, as in ball-0.5. */
+static bool is_mistaken(const char *extension) {
+    static const char *const others[] = {"jpg", "jpeg", "gif", "bmp", "tif", "tiff", "webp", "avif", "ppm",
+                                         "exr", "hdr",  "tga", "svg", "pdf", "yaml", "yml",  "txt",  "json"};
     for (size_t i = 0; i < sizeof others / sizeof *others; i++)
         if (strcasecmp(extension, others[i]) == 0) return true;
     return false;
 }
 
-/* What varies in a pattern, {name} and %d, is no extension. */
 bool path_check_picture(enum command_id command, const char *option, const char *path) {
     const char *name = path + path_folder_length(path), *dot = strrchr(name, '.');
-    const bool none = !dot || dot == name || !dot[1] || strpbrk(dot, "{}%");
     if (!*name || path_is_folder(path) || path_is_special(path)) return true;
-    if (!none && !is_of_other_pictures(dot + 1)) return true;
-    const int length = none ? (int)strlen(path) : (int)(dot - path);
+    const bool extended = dot && dot > name;
+    if (extended && strcasecmp(dot, ".png") == 0) return true;
+    const int length = extended && is_mistaken(dot + 1) ? (int)(dot - path) : (int)strlen(path);
     say_usage(command, "%s %s: pictures are PNG; did you mean %.*s.png?", option, path, length, path);
     return false;
 }

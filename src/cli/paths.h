@@ -19,8 +19,8 @@ bool path_is_special(
 /* Bytes of the path up to its last slash, that included. */
 size_t path_folder_length(const char *path);
 
-/* Whether the file that an option names, perhaps by a pattern, may be a picture. False, with the reason told, where it
- * would be called as pictures of another kind are, or have no extension: that would fool whoever looks for it. */
+/* Whether the file that an option names, perhaps by a pattern, may be a picture: it ends in .png, in any case. False, with
+ * the reason told, where it ends otherwise: that would fool whoever looks for it, or write over what is none. */
 bool path_check_picture(enum command_id command, const char *option, const char *path);
 
 /* Makes the folders that the file `path` needs. False, with the reason told. */

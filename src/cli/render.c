@@ -248,6 +248,8 @@ static unsigned choose_jobs(const struct work *work) {
 enum { FEW = 10 }; /* pictures; of more, a failure may have left the screen by the end */
 
 static void list_failures(const struct work *work) {
+    for (size_t i = 0; i < work->loader.scenes.missing; i++)
+        say_note("failed %s", work->loader.scenes.lost[i]);
     for (size_t i = 0; i < work->begun; i++)
         for (size_t k = 0; k < work->units[i].count; k++) {
             const struct picture *p = &work->units[i].pictures[k];

@@ -11,6 +11,12 @@
 #include "cli/say.h"
 #include "cli/scene_path.h"
 
+/* Files of folders and patterns that are not wanted, and are to be told. */
+struct left_out {
+    char *names;  /* "a.yaml, b.yaml"; NULL: none */
+    size_t count; /* of more than a few the others are in this number alone */
+};
+
 /* What is under way. */
 struct search {
     struct scenes *scenes;
@@ -18,10 +24,7 @@ struct search {
     const struct monge_limits *limits;
     struct report *report;
     enum scenes_wish wish;
-    char *
-        left_out; /* files below folders that are not wanted, and are to be told: "a.yaml, b.yaml"; NULL: none */
-    size_t left_out_count; /* of more than a few the others are in this number alone */
-    bool input_read;
+    struct left_out no_scenes, special; /* special: pipes and devices, which may never end */
 };
 
 /* ---- Paths ---- */
@@ -32,20 +35,23 @@ static bool is_there(const char *path) { return access(path, F_OK) == 0; }
 /* ---- What is wrong ---- */
 
 /* An operand, or a line of a list, stands for nothing. */
-static void fail_operand(struct search *search) {
-    search->scenes->status = STATUS_TROUBLE;
-    search->scenes->missing++;
+static void fail_operand(struct search *search, const char *path) {
+    struct scenes *scenes = search->scenes;
+    scenes->status = STATUS_TROUBLE;
+    scenes->lost = realloc(scenes->lost, (scenes->missing + 1) * sizeof *scenes->lost);
+    if (!scenes->lost) say_no_memory();
+    scenes->lost[scenes->missing++] = say_text("%s", path);
 }
 
 static void report_trouble(struct search *search, const char *path, const char *what) {
     report_failure(search->report, "no-match", "%s: %s", path, what);
-    fail_operand(search);
+    fail_operand(search, path);
 }
 
 /* errno says why. */
 static void fail_reading(struct search *search, const char *path) {
     report_failure(search->report, "cannot-read", "cannot read %s: %s", path, strerror(errno));
-    fail_operand(search);
+    fail_operand(search, path);
 }
 
 /* ---- Scenes ---- */
@@ -67,26 +73,31 @@ static bool is_settings(const char *path) {
 
 enum { FEW = 10 }; /* names that are worth a line, but for `monge check`, which has all */
 
-/* What is no scene as its author meant it, definitions and settings of goldens, is told by `monge check` alone. */
-static void leave_out(struct search *search, const char *path, enum monge_text_kind kind) {
-    const bool all = search->args->command == COMMAND_CHECK;
-    if ((kind == MONGE_TEXT_DEFINITIONS || is_settings(path)) && !all) return;
-    if (++search->left_out_count > FEW && !all) return;
-    char *before = search->left_out;
-    search->left_out = before ? say_text("%s, %s", before, path) : say_text("%s", path);
+static bool tells_all(const struct search *search) { return search->args->command == COMMAND_CHECK; }
+
+static void leave_out(const struct search *search, struct left_out *left_out, const char *path) {
+    if (++left_out->count > FEW && !tells_all(search)) return;
+    char *before = left_out->names;
+    left_out->names = before ? say_text("%s, %s", before, path) : say_text("%s", path);
     free(before);
+}
+
+/* What is no scene as its author meant it, definitions and settings of goldens, is told by `monge check` alone. */
+static void leave_out_kind(struct search *search, const char *path, enum monge_text_kind kind) {
+    const bool meant = kind == MONGE_TEXT_DEFINITIONS || is_settings(path);
+    if (!meant || tells_all(search)) leave_out(search, &search->no_scenes, path);
 }
 
 static bool is_quiet(const struct search *search) {
     return search->args->option[OPTION_QUIET].given || search->report->format != MONGE_FORMAT_TEXT;
 }
 
-static void mention_left_out(const struct search *search) {
-    const size_t count = search->left_out_count;
-    const bool more = count > FEW && search->args->command != COMMAND_CHECK;
+static void mention(const struct search *search, const struct left_out *left_out, const char *one,
+                    const char *many) {
+    const size_t count = left_out->count;
+    const bool more = count > FEW && !tells_all(search);
     if (count == 0 || is_quiet(search)) return;
-    say_note("%zu file%s without a `scene` %s left out: %s%s", count, count == 1 ? "" : "s",
-             count == 1 ? "is" : "are", search->left_out, more ? ", ..." : "");
+    say_note("%zu %s left out: %s%s", count, count == 1 ? one : many, left_out->names, more ? ", ..." : "");
 }
 
 static void walk(struct search *search, const char *folder, size_t below);
@@ -98,12 +109,16 @@ static void walk_entry(struct search *search, const char *path, size_t below) {
         return;
     }
     if (!scene_extension(path)) return;
+    if (path_is_special(path)) {
+        leave_out(search, &search->special, path);
+        return;
+    }
     const enum monge_text_kind kind = scene_kind(path, search->limits);
     const bool definitions = kind == MONGE_TEXT_DEFINITIONS && search->wish == SCENES_AND_DEFINITIONS;
     if (kind == MONGE_TEXT_SCENE || definitions)
         add_scene(search, path, path + below);
     else
-        leave_out(search, path, kind);
+        leave_out_kind(search, path, kind);
 }
 
 static void walk(struct search *search, const char *folder, size_t below) {
@@ -205,22 +220,26 @@ static void add_entries(struct search *search, const struct monge_text *text, co
 }
 
 static bool read_text(struct search *search, const char *path, struct monge_text *text) {
-    if (is_stream(path) && search->input_read) {
-        say_usage(search->args->command, "standard input can be only one scene, or one list");
-        search->scenes->status = STATUS_TROUBLE;
-        return false;
-    }
-    search->input_read |= is_stream(path);
     struct monge_diagnostics *diag = report_open(search->report);
     const bool good = diag && monge_text_read(path, search->limits, text, diag);
     if (diag) report_close(search->report, diag, true);
-    if (!good) fail_operand(search);
+    if (!good) fail_operand(search, path);
     return good;
+}
+
+/* Of which each NUL would end a name. */
+static bool is_picture(const struct monge_text *text) {
+    return text->size >= 8 && memcmp(text->bytes, "\x89PNG\r\n\x1a\n", 8) == 0;
 }
 
 static void add_list(struct search *search, const char *path) {
     struct monge_text text = {NULL, 0};
-    if (read_text(search, path, &text)) add_entries(search, &text, path);
+    if (!*path)
+        report_trouble(search, "@", "a list has a name, or is @-, standard input");
+    else if (read_text(search, path, &text) && is_picture(&text))
+        report_trouble(search, path, "this is a picture, and no list of scenes");
+    else if (text.bytes)
+        add_entries(search, &text, path);
     monge_text_free(&text);
 }
 
@@ -270,15 +289,26 @@ static void add_file(struct search *search, const char *path) {
     search->scenes->status = STATUS_TROUBLE;
 }
 
+/* A path that a pattern stands for; its name is what is behind `name`. */
+static void add_match(struct search *search, const char *path, const char *name) {
+    if (path_is_folder(path))
+        add_folder(search, path, (size_t)(name - path));
+    else if (path_is_special(path))
+        leave_out(search, &search->special, path);
+    else if (scene_kind(path, search->limits) == MONGE_TEXT_EMPTY)
+        leave_out(search, &search->no_scenes, path);
+    else
+        add_scene(search, path, name);
+}
+
 static void add_pattern(struct search *search, const char *pattern) {
+    const size_t count = search->scenes->count, missing = search->scenes->missing;
     struct matches matches = matches_find(pattern);
     search->scenes->several = true;
-    if (matches.count == 0) report_trouble(search, pattern, "no file matches");
-    for (size_t i = 0; i < matches.count; i++) {
-        const char *path = matches.paths[i], *name = matches_varying(pattern, path);
-        path_is_folder(path) ? add_folder(search, path, (size_t)(name - path))
-                             : add_scene(search, path, name);
-    }
+    for (size_t i = 0; i < matches.count; i++)
+        add_match(search, matches.paths[i], matches_varying(pattern, matches.paths[i]));
+    if (search->scenes->count == count && search->scenes->missing == missing)
+        report_trouble(search, pattern, matches.count == 0 ? "no file matches" : "no scene matches");
     matches_free(&matches);
 }
 
@@ -377,15 +407,28 @@ static void drop_repeated(struct scenes *scenes) {
     close_ranks(scenes);
 }
 
-void scenes_find(struct scenes *scenes, const struct arguments *args, enum scenes_wish wish,
+/* Standard input can be read once. */
+static bool check_input(const struct arguments *args) {
+    size_t count = 0;
+    for (size_t i = 0; i < args->count; i++)
+        count += is_stream(args->operands[i]) || strcmp(args->operands[i], "@-") == 0;
+    if (count > 1) say_usage(args->command, "standard input can be only one scene, or one list");
+    return count <= 1;
+}
+
+bool scenes_find(struct scenes *scenes, const struct arguments *args, enum scenes_wish wish,
                  const struct monge_limits *limits, struct report *report) {
     *scenes = (struct scenes){.status = STATUS_YES};
     struct search search = {.scenes = scenes, .args = args, .limits = limits, .report = report, .wish = wish};
+    if (!check_input(args)) return false;
     for (size_t i = 0; i < args->count; i++) add_operand(&search, args->operands[i]);
     name_from_root(&search);
     drop_repeated(scenes);
-    mention_left_out(&search);
-    free(search.left_out);
+    mention(&search, &search.no_scenes, "file without a `scene` is", "files without a `scene` are");
+    mention(&search, &search.special, "pipe, socket or device is", "pipes, sockets or devices are");
+    free(search.no_scenes.names);
+    free(search.special.names);
+    return true;
 }
 
 void scenes_free(struct scenes *scenes) {
@@ -393,6 +436,8 @@ void scenes_free(struct scenes *scenes) {
         free(scenes->all[i].path);
         free(scenes->all[i].name);
     }
+    for (size_t i = 0; i < scenes->missing; i++) free(scenes->lost[i]);
+    free(scenes->lost);
     free(scenes->all);
     monge_text_free(&scenes->input);
 }

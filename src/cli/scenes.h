@@ -4,7 +4,7 @@
  *     scenes/         a folder: all *.yaml and *.yml below it that are scenes, sorted by name; what is hidden, and
  *                     links to folders, are passed by
  *     'k[1-3]*.yaml'  a pattern that the shell has left alone; `**` in it, as the name of a folder, stands for any
- *                     folders, or none
+ *                     folders, or none; empty files, pipes and devices are left out, as in folders
  *     @list, @-       a file, or standard input, with one of these a line; # begins a comment. Where it has a NUL,
  *                     what is between NULs is a name as it stands
  *     -               standard input: a list where each entry is a path, else a scene
@@ -29,7 +29,8 @@ struct scenes {
     size_t count;
     struct monge_text input; /* the scene on standard input; without bytes where there is none */
     enum status status;      /* STATUS_TROUBLE: some operand stands for nothing; the reason has been told */
-    size_t missing;          /* such operands, and lines of lists */
+    char **lost;             /* owned: such operands, lines of lists and folders, */
+    size_t missing;          /* so many */
     bool several;            /* some operand may stand for several: a folder, a pattern, a list */
 };
 
@@ -37,8 +38,8 @@ struct scenes {
 enum scenes_wish { SCENES_ALONE, SCENES_AND_DEFINITIONS };
 
 /* Finds them all, with what is wrong told to the report, to stderr where it is not about files. limits may be
- * NULL. To be freed. */
-void scenes_find(struct scenes *scenes, const struct arguments *args, enum scenes_wish wish,
+ * NULL. To be freed. False, with the reason told and nothing read, when standard input is to be read twice. */
+bool scenes_find(struct scenes *scenes, const struct arguments *args, enum scenes_wish wish,
                  const struct monge_limits *limits, struct report *report);
 void scenes_free(struct scenes *scenes);
 

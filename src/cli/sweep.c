@@ -23,16 +23,20 @@ static void add_value(struct axis *axis, char *value) {
 
 /* ---- Ranges ---- */
 
-/* A decimal number at *text, which moves behind it. */
+static size_t count_digits(const char *text) { return strspn(text, "0123456789"); }
+
+/* A decimal number at *text, perhaps with an exponent; *text moves behind it. */
 static bool read_number(const char **text, double *number) {
     const char *at = *text + (**text == '-');
-    const size_t whole = strspn(at, "0123456789");
-    size_t length = whole;
-    if (at[length] == '.' && isdigit((unsigned char)at[length + 1]))
-        length += 1 + strspn(at + length + 1, "0123456789");
-    if (whole == 0) return false;
+    if (count_digits(at) == 0) return false;
+    at += count_digits(at);
+    if (*at == '.' && count_digits(at + 1) > 0) at += 1 + count_digits(at + 1);
+    if (*at == 'e' || *at == 'E') {
+        const char *exponent = at + 1 + (at[1] == '+' || at[1] == '-');
+        if (count_digits(exponent) > 0) at = exponent + count_digits(exponent);
+    }
     *number = strtod(*text, NULL);
-    *text = at + length;
+    *text = at;
     return true;
 }
 

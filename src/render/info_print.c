@@ -1,6 +1,7 @@
 /* The numbers of a scene for people and for programs. */
 #include <inttypes.h>
 #include <math.h>
+#include <string.h>
 
 #include "base/json.h"
 #include "render/camera.h"
@@ -87,8 +88,22 @@ static void print_picture(const struct scene *scene, const struct accel *accel, 
     fprintf(out, planes ? ", and %" PRIu32 " endless plane%s\n" : "\n", planes, planes == 1 ? "" : "s");
 }
 
+/* A text of the scene, or the name of a file, for a terminal: without its control characters. */
+static void print_text(FILE *out, const char *before, const char *text, const char *after) {
+    fputs(before, out);
+    for (const char *c = text; *c; c++) fputc((unsigned char)*c < 0x20 || *c == 0x7f ? '?' : *c, out);
+    fputs(after, out);
+}
+
+/* At the beginning of a line, with a column of its own. */
+static void print_name(FILE *out, const char *name) {
+    const int room = 18 - (int)strlen(name);
+    print_text(out, "  ", name, "");
+    fprintf(out, "%*s", room > 0 ? room : 0, "");
+}
+
 static void print_count(FILE *out, const char *name, const struct info_count *c, const char *what) {
-    fprintf(out, "  %-18s", name);
+    print_name(out, name);
     print_number(out, "", c->stored, what);
     if (c->placed != c->stored) print_number(out, ", placed ", c->placed, "");
     fputc('\n', out);
@@ -140,7 +155,7 @@ static void print_templates(const struct info *info, FILE *out) {
         if (!t->name) continue;
         if (!any) fputs("templates   each without those that it uses\n", out);
         any = true;
-        fprintf(out, "  %-18s", t->name);
+        print_name(out, t->name);
         print_number(out, "used ", t->uses, t->uses == 1 ? " time" : " times");
         print_number(out, ", primitives ", t->primitives.stored, "");
         if (t->primitives.placed != t->primitives.stored)
@@ -154,16 +169,15 @@ static void print_templates(const struct info *info, FILE *out) {
 static void print_members(const struct outline_node *node, int depth, const char *file, FILE *out) {
     for (const struct outline_node *n = node->first; n; n = n->next) {
         fprintf(out, "%*s", 2 * depth, "");
-        fprintf(out, n->is_use ? "use %s" : "%s", n->what);
-        if (n->name) fprintf(out, " `%s`", n->name);
-        if (n->with && *n->with) fprintf(out, " (%s%s)", n->with, n->varies ? ", ..." : "");
+        print_text(out, n->is_use ? "use " : "", n->what, "");
+        if (n->name) print_text(out, " `", n->name, "`");
+        if (n->with && *n->with) print_text(out, " (", n->with, n->varies ? ", ...)" : ")");
         if (n->count > 1) print_number(out, " x", n->count, "");
-        if (n->loop) fprintf(out, " for %s", n->loop);
-        if (n->material) fprintf(out, ", %s", n->material);
-        if (file && n->file == file)
-            fprintf(out, "  %" PRIu32 ":%" PRIu32 "\n", n->line, n->column);
-        else
-            fprintf(out, "  %s:%" PRIu32 ":%" PRIu32 "\n", n->file, n->line, n->column);
+        if (n->loop) print_text(out, " for ", n->loop, "");
+        if (n->material) print_text(out, ", ", n->material, "");
+        fputs("  ", out);
+        if (!file || n->file != file) print_text(out, "", n->file, ":");
+        fprintf(out, "%" PRIu32 ":%" PRIu32 "\n", n->line, n->column);
         print_members(n, depth + 1, n->file, out);
     }
     if (!node->more) return;

@@ -29,6 +29,8 @@ static struct row {
     {"no mapping", "- scene\n", MONGE_TEXT_OTHER},
     {"an empty mapping", "{}\n", MONGE_TEXT_OTHER},
     {"a key that is no text", "? [scene]\n: 1\n", MONGE_TEXT_OTHER},
+    {"nothing", "", MONGE_TEXT_EMPTY},
+    {"comments alone", "# a scene\n\n  # to be\n", MONGE_TEXT_EMPTY},
     {"no YAML", "scene: [\n", MONGE_TEXT_SCENE},
 };
 
