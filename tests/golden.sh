@@ -204,7 +204,7 @@ fresh 'rules: [{scenes: one, aov: true}]'; exits 1 test s --golden g -q; exits 0
 rm g/one.depth.pfm; exits 1 accept --golden g; out_has 'two is taken already'; out_lacks 'one is taken'
 # during the run, too: a program of --old changes the line
 fresh 'kind: hash'; exits 0 test s --golden g --update-only-failed -q; scene s/one.yaml lime
-printf '#!/bin/sh\nsed -i "/^one /s/pixels=..../pixels=0000/" g/golden.lock\n' >old; chmod +x old
+printf '#!/bin/sh\n[ "$1" = --version ] || sed -i "/^one /s/pixels=..../pixels=0000/" g/golden.lock\n' >old; chmod +x old
 exits 1 test s --golden g --old ./old --update-only-failed; err_has 'one is left as it is: its golden has changed during the run'
 out_has '0 of 1 new pictures are goldens now'; ok 'the line of others stays' grep -q '^one .*pixels=0000' g/golden.lock
 
@@ -667,17 +667,16 @@ exits 1 test s --golden g --old ./old; says changed one; out_has 'flip'; there m
 exits 1 test s --golden g --old ./older; out_has './older makes no picture of it'; missing monge-test/old/one.png
 # a program that cannot be run at all
 echo >plain; chmod -x plain
-for old in /nonexist ./old/x plain/ . ./plain 'monge --x' nowhere-at-all; do
+for old in /nonexist ./old/x plain/ . s/ ./plain 'monge --x' nowhere-at-all; do
     exits 2 test s --golden g --old "$old"; no_out
     case $old in
     */nonexist) why='No such file or directory' ;;
     ./old/x | plain/) why='Not a directory' ;;
-    ./plain) why='Permission denied' ;;
+    . | s/ | ./plain) why='Permission denied' ;;
     *) why='there is no such program in the PATH' ;;
     esac
     ok 'the reason, once' [ "$(cat err)" = "monge: --old $old: $why" ]
 done
-exits 2 test s --golden g --old s/; ok 'a folder' [ "$(cat err)" = 'monge: --old s/: Is a directory' ]
 mkdir -p bin; cp old bin/old-monge; last='test --old from the PATH'
 PATH=$work/bin:$PATH "$monge" test s --golden g --old old-monge >out 2>err; says changed one; there monge-test/old/one.png; rm -r bin plain
 cp g/golden.lock lock; sed -i '/^one /s/program=......../program=00000000/' g/golden.lock

@@ -1,10 +1,10 @@
 /* The picture of a golden that is a hash: by --old, the program that made it, or by a command that takes the scene of then. */
 #include <errno.h>
+#include <fcntl.h>
 #include <signal.h>
 #include <spawn.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -18,46 +18,40 @@
 
 /* ---- --old ---- */
 
-static bool can_run(const char *path) {
-    struct stat status;
-    if (access(path, X_OK) != 0 || stat(path, &status) != 0) return false;
-    if (S_ISREG(status.st_mode)) return true;
-    errno = S_ISDIR(status.st_mode) ? EISDIR : EACCES;
-    return false;
-}
-
-/* As a shell looks for it: an empty folder in the PATH is the current one. */
-static bool is_in_path(const char *program) {
-    const char *path = getenv("PATH");
-    char *folders = say_text("%s", path ? path : "/usr/bin:/bin"), *at = folders;
-    bool found = false;
-    for (char *folder; !found && (folder = strsep(&at, ":"));) {
-        char *file = path_below(*folder ? folder : ".", program, "");
-        found = can_run(file);
-        free(file);
-    }
-    free(folders);
-    return found;
-}
-
-bool golden_check_old(const char *program) {
-    const bool named = strchr(program, '/') != NULL;
-    if (named ? can_run(program) : is_in_path(program)) return true;
-    say_error("--old %s: %s", program, named ? strerror(errno) : "there is no such program in the PATH");
-    return false;
-}
-
-/* Whether the command, a shell's, ends well. */
-static bool run_command(char *command) {
-    char *words[] = {"sh", "-c", command, NULL};
-    pid_t child;
+/* Waits for the child; a signal ends that too. */
+static bool ends_well(pid_t child) {
     int status;
-    if (posix_spawn(&child, "/bin/sh", NULL, NULL, words, environ) != 0) return false;
     while (waitpid(child, &status, 0) < 0) {
         if (errno != EINTR) return false;
         kill(child, SIGTERM);
     }
     return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+bool golden_check_old(const char *program) {
+    char *words[] = {(char *)program, "--version", NULL};
+    posix_spawn_file_actions_t quiet;
+    pid_t child;
+    posix_spawn_file_actions_init(&quiet);
+    posix_spawn_file_actions_addopen(&quiet, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    posix_spawn_file_actions_addopen(&quiet, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+    posix_spawn_file_actions_addopen(&quiet, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+    const int why = posix_spawnp(&child, program, &quiet, NULL, words, environ);
+    posix_spawn_file_actions_destroy(&quiet);
+    if (why == 0) {
+        ends_well(child); /* or not: what it says of itself does not matter */
+        return true;
+    }
+    const bool sought = why == ENOENT && !strchr(program, '/');
+    say_error("--old %s: %s", program, sought ? "there is no such program in the PATH" : strerror(why));
+    return false;
+}
+
+/* A command of a shell. */
+static bool run_command(char *command) {
+    char *words[] = {"sh", "-c", command, NULL};
+    pid_t child;
+    return posix_spawn(&child, "/bin/sh", NULL, NULL, words, environ) == 0 && ends_well(child);
 }
 
 /* An old program may not know passes. */
