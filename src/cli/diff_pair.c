@@ -4,7 +4,8 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
+
+#include "cli/paths.h"
 
 #define METRIC_BIT(metric) (1u << (metric))
 
@@ -68,15 +69,9 @@ static bool passes(const struct diff *diff, const struct monge_difference *d) {
 
 /* ---- The comparison ---- */
 
-static bool same_file(const char *a, const char *b) {
-    struct stat of_a, of_b;
-    return stat(a, &of_a) == 0 && stat(b, &of_b) == 0 && of_a.st_dev == of_b.st_dev &&
-           of_a.st_ino == of_b.st_ino;
-}
-
 const char *diff_overwritten(const struct diff *diff, const char *out, const char *a, const char *b) {
-    if (same_file(out, a) || same_file(out, b)) return "a picture that is compared";
-    return diff->mask_file && same_file(out, diff->mask_file) ? "the mask" : NULL;
+    if (path_is_same(out, a) || path_is_same(out, b)) return "a picture that is compared";
+    return diff->mask_file && path_is_same(out, diff->mask_file) ? "the mask" : NULL;
 }
 
 static const char *shown(const char *path) { return strcmp(path, "-") == 0 ? "standard input" : path; }

@@ -1,17 +1,11 @@
 #include "cli/import.h"
 
 #include <string.h>
-#include <sys/stat.h>
 
 #include "cli/options.h"
+#include "cli/paths.h"
 #include "cli/say.h"
 #include "monge.h"
-
-static bool same_file(const char *a, const char *b) {
-    struct stat of_a, of_b;
-    return stat(a, &of_a) == 0 && stat(b, &of_b) == 0 && S_ISREG(of_a.st_mode) &&
-           of_a.st_dev == of_b.st_dev && of_a.st_ino == of_b.st_ino;
-}
 
 enum status import_command(const struct arguments *args) {
     const char *path = args->operands[0];
@@ -21,7 +15,7 @@ enum status import_command(const struct arguments *args) {
         say_usage(COMMAND_IMPORT, "import: expected one file, found `%s` as well", args->operands[1]);
         return STATUS_TROUBLE;
     }
-    if (strcmp(path, "-") != 0 && same_file(path, out)) {
+    if (strcmp(path, "-") != 0 && path_is_file(path) && path_is_same(path, out)) {
         say_usage(COMMAND_IMPORT, "%s would be written over by its own import", path);
         return STATUS_TROUBLE;
     }

@@ -16,6 +16,9 @@ bool path_is_link(const char *path);
 bool path_is_special(
     const char *path); /* a pipe or a device: may be written more than once, and is not replaced */
 
+/* Whether both lead to one file or folder, which is there. */
+bool path_is_same(const char *a, const char *b);
+
 /* Bytes of the path up to its last slash, that included. */
 size_t path_folder_length(const char *path);
 

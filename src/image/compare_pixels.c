@@ -29,10 +29,6 @@ static struct layout common_layout(const struct monge_picture *a, const struct m
 
 static unsigned max_code(const struct layout *layout) { return (1u << layout->bits) - 1; }
 
-static inline unsigned read_number(const uint8_t *at, unsigned bits) {
-    return bits == 16 ? (unsigned)at[0] << 8 | at[1] : at[0];
-}
-
 /* A pixel in that layout; 8 bits become 16 by v * 257, which keeps 0 and 1. */
 static void read_pixel(const struct monge_picture *picture, const uint8_t *at, const struct layout *layout,
                        uint16_t *out) {
@@ -40,9 +36,9 @@ static void read_pixel(const struct monge_picture *picture, const uint8_t *at, c
     const unsigned scale = layout->bits > bits ? 257 : 1;
     const bool alpha = picture->channels > colors;
     for (unsigned c = 0; c < layout->colors; c++)
-        *out++ = (uint16_t)(scale * read_number(at + (c < colors ? c * bytes : 0), bits));
+        *out++ = (uint16_t)(scale * picture_number(at + (c < colors ? c * bytes : 0), bits));
     if (layout->channels > layout->colors)
-        *out = (uint16_t)(alpha ? scale * read_number(at + colors * bytes, bits) : max_code(layout));
+        *out = (uint16_t)(alpha ? scale * picture_number(at + colors * bytes, bits) : max_code(layout));
 }
 
 /* What a thread has found. */
@@ -140,8 +136,8 @@ INLINE void count_alike(const struct job *job, struct tally *t, uint32_t y, unsi
             uint16_t of_a[4], of_b[4];
             if (memcmp(at_a, at_b, size) == 0 || (ignored && ignored[x])) continue;
             for (unsigned c = 0; c < channels; c++) {
-                of_a[c] = (uint16_t)read_number(at_a + c * bytes, bits);
-                of_b[c] = (uint16_t)read_number(at_b + c * bytes, bits);
+                of_a[c] = (uint16_t)picture_number(at_a + c * bytes, bits);
+                of_b[c] = (uint16_t)picture_number(at_b + c * bytes, bits);
             }
             count_numbers(job, t, x, y, of_a, of_b, channels);
         }

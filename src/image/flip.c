@@ -147,10 +147,6 @@ static float *tile_row(struct tile *tile, int radius, int picture, int plane, in
     return tile->rows + (size_t)((picture * X_PLANES + plane) * (2 * radius + 1) + slot) * TILE_WIDTH;
 }
 
-static inline unsigned number_at(const uint8_t *at, unsigned bits) {
-    return bits == 16 ? (unsigned)at[0] << 8 | at[1] : at[0];
-}
-
 /* The colours of `count` pixels of a row from column `left` on; beyond the edges, those of the edge. */
 INLINE void load_row(const struct flip *f, int which, uint32_t y, int64_t left, int count, struct tile *tile,
                      unsigned bits) {
@@ -167,8 +163,8 @@ INLINE void load_row(const struct flip *f, int which, uint32_t y, int64_t left, 
         const float *light = f->light[other ? 0 : which];
         const uint8_t *at = picture_row(p, y) + (size_t)x * p->channels * bytes;
         const size_t step = p->channels >= 3 ? bytes : 0;
-        const float red = light[number_at(at, depth)], green = light[number_at(at + step, depth)],
-                    blue = light[number_at(at + 2 * step, depth)];
+        const float red = light[picture_number(at, depth)], green = light[picture_number(at + step, depth)],
+                    blue = light[picture_number(at + 2 * step, depth)];
         const float luma = m[1][0] * red + m[1][1] * green + m[1][2] * blue;
         tile->row[LUMA][i] = luma;
         tile->row[RED_GREEN][i] = m[0][0] * red + m[0][1] * green + m[0][2] * blue - luma;

@@ -67,6 +67,11 @@ static inline const uint8_t *picture_row(const struct monge_picture *picture, ui
     return picture->rows + y * picture->stride;
 }
 
+/* One number of a pixel, of 8 or 16 bits. */
+static inline unsigned picture_number(const uint8_t *at, unsigned bits) {
+    return bits == 16 ? (unsigned)at[0] << 8 | at[1] : at[0];
+}
+
 /* Bytes of a pixel. */
 static inline size_t picture_pixel_size(const struct monge_picture *picture) {
     return picture->channels * (picture->bits / 8);

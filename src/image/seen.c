@@ -15,18 +15,15 @@ static bool has_alpha(const struct monge_picture *picture) { return picture->cha
 
 static bool is_plain(const struct comparison *c) { return !has_alpha(c->a) && !has_alpha(c->b); }
 
-static inline uint32_t read_number(const uint8_t *at, size_t bytes) {
-    return bytes == 2 ? (uint32_t)at[0] << 8 | at[1] : at[0];
-}
-
 static void mix_row(const struct monge_picture *picture, enum ground ground, uint32_t y, uint8_t *out) {
     const size_t bytes = picture->bits / 8, colors = picture->channels - 1;
     const uint32_t most = (1u << picture->bits) - 1, under = ground == WHITE ? most : 0;
     const uint8_t *at = picture_row(picture, y);
     for (uint32_t x = 0; x < picture->width; x++, at += bytes) {
-        const uint32_t alpha = read_number(at + colors * bytes, bytes);
+        const uint32_t alpha = picture_number(at + colors * bytes, picture->bits);
         for (size_t c = 0; c < colors; c++, at += bytes) {
-            const uint32_t sum = read_number(at, bytes) * alpha + under * (most - alpha); /* most^2 fits */
+            const uint32_t sum =
+                picture_number(at, picture->bits) * alpha + under * (most - alpha); /* most^2 fits */
             const uint32_t mixed = (sum + most / 2) / most;
             if (bytes == 2) *out++ = (uint8_t)(mixed >> 8);
             *out++ = (uint8_t)mixed;

@@ -25,7 +25,7 @@ struct ssim {
 };
 
 static double number_at(const uint8_t *at, unsigned bits) {
-    return bits == 16 ? (at[0] << 8 | at[1]) / 65535.0 : at[0] / 255.0;
+    return picture_number(at, bits) / (bits == 16 ? 65535.0 : 255.0);
 }
 
 static double luma_at(const struct monge_picture *picture, uint32_t x, uint32_t y) {

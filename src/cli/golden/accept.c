@@ -298,7 +298,7 @@ static enum status settle(struct acceptance *a) {
 /* Paths of the run count from where it was. */
 static void find_far(struct acceptance *a) {
     const char *from = a->results.from;
-    if (!from || !path_is_folder(from) || golden_is_same_file(from, ".")) return;
+    if (!from || !path_is_folder(from) || path_is_same(from, ".")) return;
     a->far = say_text("its scene cannot be read from here: run it from %s, where the test ran", from);
 }
 
@@ -307,7 +307,7 @@ static bool check_goldens(const struct acceptance *a, const char *path) {
     const char *folder = a->results.folder;
     const bool other_place = a->far && *folder != '/';
     char *goldens = other_place ? path_below(a->results.from, folder, "") : say_text("%s", folder);
-    const bool same = golden_is_same_file(goldens, a->folder);
+    const bool same = strcmp(goldens, a->folder) == 0 || path_is_same(goldens, a->folder);
     if (!same)
         say_error("%s: the last run was with the goldens of %s", path, goldens);
     else if (other_place)

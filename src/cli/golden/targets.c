@@ -3,17 +3,10 @@
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
-#include <sys/stat.h>
 
 #include "cli/golden/folder.h"
 #include "cli/paths.h"
 #include "cli/say.h"
-
-bool golden_is_same_file(const char *a, const char *b) {
-    struct stat p, q;
-    return strcmp(a, b) == 0 ||
-           (stat(a, &p) == 0 && stat(b, &q) == 0 && p.st_dev == q.st_dev && p.st_ino == q.st_ino);
-}
 
 /* Whether the path is the folder, or is below it; of what is not there (yet), too. */
 static bool is_within(const char *path, const char *folder) {
@@ -70,7 +63,7 @@ static bool spares_inputs(const struct golden_run *run, const struct target *tar
     if (!is_file_target(target)) return true;
     if (!keeps_out(run, target->option, target->path)) return false;
     for (size_t i = 0; i < run->count; i++)
-        if (golden_is_same_file(run->scenes[i].path, target->path)) {
+        if (path_is_same(run->scenes[i].path, target->path)) {
             say_error("--%s %s would write over a scene of the run", target->option, target->path);
             return false;
         }
@@ -83,7 +76,7 @@ static bool spares_inputs(const struct golden_run *run, const struct target *tar
 static bool are_apart(const struct target *a, const struct target *b) {
     if (!is_file_target(a) || !is_file_target(b)) return true;
     char *p = golden_real_path(a->path), *q = golden_real_path(b->path);
-    const bool apart = strcmp(p, q) != 0 && !golden_is_same_file(p, q);
+    const bool apart = strcmp(p, q) != 0 && !path_is_same(p, q);
     if (!apart) say_error("--%s and --%s would write the same file, %s", a->option, b->option, b->path);
     free(q);
     free(p);

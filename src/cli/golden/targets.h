@@ -8,7 +8,4 @@
  * of the run, and no two of the files are the same. False: told. */
 bool golden_check_targets(const struct golden_run *run, const struct option_value *option);
 
-/* Whether two paths lead to the same file. */
-bool golden_is_same_file(const char *a, const char *b);
-
 #endif

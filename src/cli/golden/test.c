@@ -79,7 +79,8 @@ static bool check_scenes(struct golden_run *run) {
     if (good && run->count > 1) qsort(sorted, run->count, sizeof *sorted, compare_scenes);
     for (size_t i = 1; good && i < run->count; i++) {
         if (strcmp(sorted[i - 1]->name, sorted[i]->name) != 0) continue;
-        good = golden_is_same_file(sorted[i - 1]->path, sorted[i]->path);
+        good = strcmp(sorted[i - 1]->path, sorted[i]->path) == 0 ||
+               path_is_same(sorted[i - 1]->path, sorted[i]->path);
         if (!good)
             say_error("%s and %s would have the same golden, %s: give --root, or golden.yaml a `root`",
                       sorted[i - 1]->path, sorted[i]->path, sorted[i]->name);
