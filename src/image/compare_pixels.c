@@ -6,11 +6,13 @@
 
 #include "base/elementary.h"
 #include "base/parallel.h"
+#include "base/wide.h"
 #include "image/compare.h"
 
 enum {
-    BLOCK = 16 /* pixels that are looked at together */,
-    BAND = 16 /* rows that a thread takes at a time */
+    BLOCK = 32,              /* pixels that are looked at together */
+    BLOCK_BYTES = BLOCK * 4, /* of 8 bits; at most */
+    BAND = 16                /* rows that a thread takes at a time */
 };
 
 /* How both pictures are read: with as many channels and bits as the one that has more. */
@@ -51,7 +53,8 @@ struct tally {
 struct job {
     const struct comparison *comparison;
     struct layout layout;
-    unsigned limit; /* what differs by more is beyond */
+    unsigned limit;             /* what differs by more is beyond */
+    uint8_t first[BLOCK_BYTES]; /* of pixels of 8 bits: 1 for the byte with which one begins, and else 0 */
     atomic_uint next;
     struct tally tallies[PARALLEL_MAX_THREADS];
 };
@@ -60,16 +63,19 @@ static bool is_before(uint32_t x, uint32_t y, uint32_t than_x, uint32_t than_y) 
     return y < than_y || (y == than_y && x < than_x);
 }
 
-#define INLINE static inline __attribute__((always_inline))
-
-/* Pixels come row by row, each from left to right. */
-INLINE void count_pixel(struct tally *t, unsigned largest, unsigned limit, uint32_t x, uint32_t y) {
-    if (t->different++ == 0) t->left = t->right = x, t->top = y;
-    t->beyond += largest > limit;
+/* Where a pixel is that differs. They come row by row, each from left to right. */
+INLINE void place_pixel(struct tally *t, unsigned largest, uint32_t x, uint32_t y) {
+    if (t->max == 0) t->left = t->right = x, t->top = y;
     t->left = x < t->left ? x : t->left;
     t->right = x > t->right ? x : t->right;
     t->bottom = y;
     if (largest > t->max) t->max = largest, t->max_x = x, t->max_y = y;
+}
+
+INLINE void count_pixel(struct tally *t, unsigned largest, unsigned limit, uint32_t x, uint32_t y) {
+    place_pixel(t, largest, x, y);
+    t->different++;
+    t->beyond += largest > limit;
 }
 
 /* A pixel of both, as that many numbers. */
@@ -85,35 +91,86 @@ INLINE void count_numbers(const struct job *job, struct tally *t, uint32_t x, ui
     if (largest > 0) count_pixel(t, largest, job->limit, x, y);
 }
 
-/* The differences of BLOCK pixels of 8 bits; what is ignored has none. */
-INLINE void subtract_block(const uint8_t *a, const uint8_t *b, const uint8_t *ignored, size_t channels,
-                           uint8_t *differences) {
-    for (size_t i = 0; i < BLOCK * channels; i++)
-        differences[i] = (uint8_t)(a[i] > b[i] ? a[i] - b[i] : b[i] - a[i]);
+/* ---- BLOCK pixels of 8 bits, byte by byte. The number of bytes is known to the compiler ---- */
+
+struct block {
+    uint8_t difference[BLOCK_BYTES + 4]; /* and zeros */
+    uint8_t largest
+        [BLOCK_BYTES]; /* of the channels, for the byte with which a pixel begins; of no use for others */
+};
+
+/* What is ignored has no differences. */
+INLINE void subtract_block(struct block *block, const uint8_t *a, const uint8_t *b, const uint8_t *ignored,
+                           size_t channels) {
+    const size_t size = BLOCK * channels;
+    memset(block->difference + size, 0, 4);
+    for (size_t i = 0; i < size; i++)
+        block->difference[i] = (uint8_t)(a[i] > b[i] ? a[i] - b[i] : b[i] - a[i]);
     for (size_t x = 0; ignored && x < BLOCK; x++)
-        if (ignored[x]) memset(differences + x * channels, 0, channels);
+        if (ignored[x]) memset(block->difference + x * channels, 0, channels);
 }
 
-/* BLOCK pixels of 8 bits from column `begin` on. The number of channels is known to the compiler. */
-INLINE void count_bytes(const struct job *job, struct tally *t, uint32_t begin, uint32_t y, const uint8_t *a,
-                        const uint8_t *b, const uint8_t *ignored, size_t channels) {
-    uint8_t differences[BLOCK * 4], largest[BLOCK];
-    uint32_t sum = 0, squares = 0;
-    subtract_block(a, b, ignored, channels, differences);
-    for (size_t i = 0; i < BLOCK * channels; i++) {
-        sum += differences[i];
-        squares += (uint32_t)differences[i] * differences[i];
-    }
-    t->sum += sum;
-    t->squares += squares;
-    for (size_t x = 0; x < BLOCK; x++) {
-        largest[x] = 0;
-        for (size_t c = 0; c < channels; c++)
-            if (differences[x * channels + c] > largest[x]) largest[x] = differences[x * channels + c];
-    }
-    for (uint32_t x = 0; x < BLOCK; x++)
-        if (largest[x] > 0) count_pixel(t, largest[x], job->limit, begin + x, y);
+INLINE void find_largest(struct block *block, size_t channels) {
+    const size_t size = BLOCK * channels;
+    const uint8_t *d = block->difference;
+    memcpy(block->largest, d, size);
+    for (size_t c = 1; c < channels; c++)
+        for (size_t i = 0; i < size; i++)
+            block->largest[i] = d[i + c] > block->largest[i] ? d[i + c] : block->largest[i];
 }
+
+INLINE unsigned sum_bytes(const uint8_t *bytes, size_t size) {
+    uint16_t sum = 0; /* BLOCK_BYTES * 255 fits */
+    for (size_t i = 0; i < size; i++) sum = (uint16_t)(sum + bytes[i]);
+    return sum;
+}
+
+INLINE unsigned sum_squares(const uint8_t *bytes, size_t size) {
+    int sum = 0;
+    for (size_t i = 0; i < size; i++) sum += (int16_t)bytes[i] * (int16_t)bytes[i];
+    return (unsigned)sum;
+}
+
+INLINE unsigned max_byte(const uint8_t *bytes, size_t size) {
+    uint8_t max = 0;
+    for (size_t i = 0; i < size; i++) max = bytes[i] > max ? bytes[i] : max;
+    return max;
+}
+
+/* How many pixels differ by more than `limit`. */
+INLINE unsigned count_beyond(const struct block *block, const uint8_t *first, unsigned limit, size_t size) {
+    const uint8_t most = (uint8_t)limit;
+    uint8_t count = 0;
+    for (size_t i = 0; i < size; i++) count = (uint8_t)(count + ((block->largest[i] > most) & first[i]));
+    return count;
+}
+
+/* Where the differences are matters only where there are larger ones than before, or further to the left or right. */
+static void place_block(const struct block *block, struct tally *t, uint32_t begin, uint32_t y,
+                        size_t channels) {
+    for (uint32_t x = 0; x < BLOCK; x++)
+        if (block->largest[x * channels] > 0) place_pixel(t, block->largest[x * channels], begin + x, y);
+}
+
+/* Those from column `begin` on, of which some are not equal. */
+INLINE void count_block(const struct job *job, struct tally *t, uint32_t begin, uint32_t y, const uint8_t *a,
+                        const uint8_t *b, const uint8_t *ignored, size_t channels) {
+    const size_t size = BLOCK * channels;
+    struct block block;
+    subtract_block(&block, a, b, ignored, channels);
+    const unsigned max = max_byte(block.difference, size);
+    if (max == 0) return;
+    find_largest(&block, channels);
+    if (max > t->max || begin < t->left || begin + BLOCK - 1 > t->right)
+        place_block(&block, t, begin, y, channels);
+    t->bottom = y;
+    t->different += count_beyond(&block, job->first, 0, size);
+    t->beyond += count_beyond(&block, job->first, job->limit, size);
+    t->sum += sum_bytes(block.difference, size);
+    t->squares += sum_squares(block.difference, size);
+}
+
+/* ---- Rows ---- */
 
 /* A row of pictures of one layout: most of the pixels are equal, byte by byte. channels and bits are known to the
  * compiler, for those that are common. */
@@ -127,7 +184,7 @@ INLINE void count_alike(const struct job *job, struct tally *t, uint32_t y, unsi
         const uint32_t end = width - begin < BLOCK ? width : begin + BLOCK;
         if (memcmp(a + begin * size, b + begin * size, (end - begin) * size) == 0) continue;
         if (bits == 8 && end - begin == BLOCK) {
-            count_bytes(job, t, begin, y, a + begin * size, b + begin * size,
+            count_block(job, t, begin, y, a + begin * size, b + begin * size,
                         ignored ? ignored + begin : NULL, channels);
             continue;
         }
@@ -157,7 +214,7 @@ static void count_unlike(const struct job *job, struct tally *t, uint32_t y) {
     }
 }
 
-static void count_row(const struct job *job, struct tally *t, uint32_t y) {
+INLINE void count_row(const struct job *job, struct tally *t, uint32_t y) {
     const unsigned channels = job->layout.channels, bits = job->layout.bits;
     if (!job->layout.same)
         count_unlike(job, t, y);
@@ -171,7 +228,7 @@ static void count_row(const struct job *job, struct tally *t, uint32_t y) {
         count_alike(job, t, y, channels, bits);
 }
 
-static void count_bands(void *context, unsigned thread) {
+INLINE void count_bands(void *context, unsigned thread) {
     struct job *job = context;
     struct tally t = {0};
     const uint32_t height = job->comparison->a->height;
@@ -179,6 +236,9 @@ static void count_bands(void *context, unsigned thread) {
         for (uint32_t y = (uint32_t)band; y < height && y < band + BAND; y++) count_row(job, &t, y);
     job->tallies[thread] = t;
 }
+
+static void count_bands_plain(void *context, unsigned thread) { count_bands(context, thread); }
+WIDE static void count_bands_wide(void *context, unsigned thread) { count_bands(context, thread); }
 
 static void merge(struct tally *into, const struct tally *t) {
     if (t->different == 0) return;
@@ -226,7 +286,8 @@ static void tell(const struct tally *t, uint64_t pixels, const struct layout *la
 void compare_pixels(const struct comparison *comparison, double max_delta, struct monge_difference *out) {
     struct job job = {.comparison = comparison, .layout = common_layout(comparison->a, comparison->b)};
     job.limit = limit_of(max_delta, max_code(&job.layout));
-    parallel_run(comparison->threads, count_bands, &job);
+    for (size_t i = 0; i < sizeof job.first; i++) job.first[i] = i % job.layout.channels == 0;
+    parallel_run(comparison->threads, has_wide() ? count_bands_wide : count_bands_plain, &job);
     for (unsigned i = 1; i < comparison->threads; i++) merge(&job.tallies[0], &job.tallies[i]);
     tell(&job.tallies[0], comparison->pixels, &job.layout, out);
 }

@@ -7,6 +7,7 @@
 
 #include "base/elementary.h"
 #include "base/parallel.h"
+#include "base/wide.h"
 #include "image/flip_filter.h"
 
 /* Vectors of the compilers: the same operations on each number, whatever the machine has for them. They are passed
@@ -15,8 +16,6 @@
 enum { LANES = 8 };
 typedef float vector __attribute__((vector_size(4 * LANES), aligned(4), may_alias));
 typedef int32_t mask __attribute__((vector_size(4 * LANES), aligned(4), may_alias));
-
-#define INLINE static inline __attribute__((always_inline))
 
 /* ---- Colour ---- */
 
@@ -407,25 +406,18 @@ INLINE void do_tile(const struct flip *f, struct tile *tile, uint32_t number) {
     f->sums[number] = sum;
 }
 
-/* The same once more for machines with longer vectors, with the same results. */
-#if defined __x86_64__
-__attribute__((target("avx2"))) static void do_tile_avx2(const struct flip *f, struct tile *tile,
-                                                         uint32_t number) {
+static void do_tile_plain(const struct flip *f, struct tile *tile, uint32_t number) {
     do_tile(f, tile, number);
 }
-#endif
 
-static void do_tile_plain(const struct flip *f, struct tile *tile, uint32_t number) {
+WIDE static void do_tile_wide(const struct flip *f, struct tile *tile, uint32_t number) {
     do_tile(f, tile, number);
 }
 
 static void do_tiles(void *context, unsigned thread) {
     (void)thread;
     struct flip *f = context;
-    void (*work)(const struct flip *, struct tile *, uint32_t) = do_tile_plain;
-#if defined __x86_64__
-    if (__builtin_cpu_supports("avx2")) work = do_tile_avx2;
-#endif
+    void (*work)(const struct flip *, struct tile *, uint32_t) = has_wide() ? do_tile_wide : do_tile_plain;
     const size_t rows = (size_t)2 * X_PLANES * (size_t)(2 * f->filters.radius + 1);
     struct tile *tile = calloc(1, sizeof *tile + rows * TILE_WIDTH * sizeof(float));
     if (!tile) atomic_store(&f->no_memory, true);
