@@ -3,15 +3,17 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <sys/mman.h>
-#include <unistd.h>
 
-enum { LEAST = 1 << 20 /* bytes about which the system is asked */ };
+enum { LARGE = 1 << 21 /* bytes of a large page */ };
 
 void *pages_alloc(size_t size) {
-    char *memory = malloc(size);
 #ifdef MADV_HUGEPAGE /* where the system will not, it comes in small ones as ever */
-    const size_t page = (size_t)sysconf(_SC_PAGESIZE), before = -(uintptr_t)memory % page;
-    if (memory && size >= LEAST) madvise(memory + before, (size - before) / page * page, MADV_HUGEPAGE);
+    if (size >= LARGE && size <= SIZE_MAX - LARGE) {
+        const size_t whole = (size + LARGE - 1) / LARGE * LARGE;
+        void *memory = aligned_alloc(LARGE, whole);
+        if (memory) madvise(memory, whole, MADV_HUGEPAGE);
+        return memory;
+    }
 #endif
-    return memory;
+    return malloc(size);
 }
