@@ -407,6 +407,10 @@ struct monge_picture;
 /* Reads a PNG file, "-" being standard input, and checks its chunks: their order and check sums, its header, its
  * colour space, its texts. NULL: diag says why, as a failure. The caller frees the picture. */
 struct monge_picture *monge_picture_read(const char *path, struct monge_diagnostics *diag);
+
+/* The same of two files at once; at most one is standard input. False: at least one is NULL. The caller frees both. */
+bool monge_picture_read_pair(const char *path_a, const char *path_b, struct monge_picture **a,
+                             struct monge_picture **b, struct monge_diagnostics *diag);
 void monge_picture_free(struct monge_picture *picture);
 
 uint32_t monge_picture_width(const struct monge_picture *picture);

@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/parallel.h"
 #include "face.h"
 #include "image/compare.h"
 #include "image/heat.h"
@@ -15,21 +16,44 @@ static bool report_damage(struct diagnostics *diag, const struct monge_picture *
     return false;
 }
 
-struct monge_picture *monge_picture_read(const char *path, struct monge_diagnostics *diag) {
-    char reason[PICTURE_REASON_SIZE] = "";
-    bool system = false;
-    struct monge_picture *picture = calloc(1, sizeof *picture);
-    if (!picture) {
-        diag_failure(&diag->list, "out-of-memory", "%s: out of memory", path);
-        return NULL;
-    }
-    if (picture_open(picture, path, reason, &system)) return picture;
-    if (system)
-        diag_failure(&diag->list, "cannot-read", "cannot read %s: %s", shown(path), reason);
+struct reading {
+    const char *path;
+    struct monge_picture *picture; /* NULL: out of memory */
+    char reason[PICTURE_REASON_SIZE];
+    bool good, system;
+};
+
+static void begin_reading(void *context, unsigned number) {
+    struct reading *r = (struct reading *)context + number;
+    r->picture = calloc(1, sizeof *r->picture);
+    r->good = r->picture && picture_open(r->picture, r->path, r->reason, &r->system);
+}
+
+static struct monge_picture *end_reading(const struct reading *r, struct diagnostics *diag) {
+    if (r->good) return r->picture;
+    if (!r->picture)
+        diag_failure(diag, "out-of-memory", "%s: out of memory", r->path);
+    else if (r->system)
+        diag_failure(diag, "cannot-read", "cannot read %s: %s", shown(r->path), r->reason);
     else
-        report_damage(&diag->list, picture, reason);
-    monge_picture_free(picture);
+        report_damage(diag, r->picture, r->reason);
+    monge_picture_free(r->picture);
     return NULL;
+}
+
+struct monge_picture *monge_picture_read(const char *path, struct monge_diagnostics *diag) {
+    struct reading reading = {.path = path};
+    begin_reading(&reading, 0);
+    return end_reading(&reading, &diag->list);
+}
+
+bool monge_picture_read_pair(const char *path_a, const char *path_b, struct monge_picture **a,
+                             struct monge_picture **b, struct monge_diagnostics *diag) {
+    struct reading readings[] = {{.path = path_a}, {.path = path_b}};
+    parallel_run(2, begin_reading, readings);
+    *a = end_reading(&readings[0], &diag->list);
+    *b = end_reading(&readings[1], &diag->list);
+    return *a && *b;
 }
 
 void monge_picture_free(struct monge_picture *picture) {

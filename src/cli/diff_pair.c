@@ -97,10 +97,9 @@ static bool check_ignored(const struct diff_pair *pair) {
 bool diff_pair_compare(struct diff_pair *pair, const struct diff *diff, const char *path_a,
                        const char *path_b, struct monge_diagnostics *diag) {
     *pair = (struct diff_pair){.diff = diff, .path_a = path_a, .path_b = path_b};
-    pair->a = monge_picture_read(path_a, diag);
-    pair->b = monge_picture_read(path_b, diag);
     const struct monge_difference *d = &pair->difference;
-    if (!pair->a || !pair->b || !monge_compare(pair->a, pair->b, &diff->how, &pair->difference, diag))
+    if (!monge_picture_read_pair(path_a, path_b, &pair->a, &pair->b, diag) ||
+        !monge_compare(pair->a, pair->b, &diff->how, &pair->difference, diag))
         return false;
     if (!isnan(d->max) && !check_ignored(pair)) return false;
     pair->verdict = d->same ? DIFF_SAME : passes(diff, d) ? DIFF_WITHIN : DIFF_DIFFERENT;
