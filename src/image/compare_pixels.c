@@ -93,10 +93,10 @@ INLINE void count_numbers(const struct job *job, struct tally *t, uint32_t x, ui
 
 /* ---- BLOCK pixels of 8 bits, byte by byte. The number of bytes is known to the compiler ---- */
 
+/* The largest difference of a pixel's channels is at the byte with which it begins; what is at the others is of no use. */
 struct block {
     uint8_t difference[BLOCK_BYTES + 4]; /* and zeros */
-    uint8_t largest
-        [BLOCK_BYTES]; /* of the channels, for the byte with which a pixel begins; of no use for others */
+    uint8_t largest[BLOCK_BYTES];
 };
 
 /* What is ignored has no differences. */
