@@ -845,6 +845,20 @@ if have git; then
 fi
 fresh
 
+# that of a report takes one, and no other: not what its name would match as a glob, nor whatever a shell makes of it
+rm -rf s 'g h' t; scene 's/a*.yaml' red; scene 's/ab.yaml' gold; scene "s/[a] 'b.yaml" teal
+exits 1 test s --golden 'g h' --output t; out_has "\`monge accept --golden 'g h' --output t\` takes"
+mkdir bin; ln -s "$monge" bin/monge
+if have python3; then
+    for name in 'a*' "[a] 'b"; do
+        python3 -c 'import json, sys; print([s["accept_command"] for s in json.load(open("t/results.json"))["scenes"] if s["name"] == sys.argv[1]][0])' "$name" >command
+        env PATH="$PWD/bin:$PATH" sh ./command >out 2>err; ok "$name is taken by its command" [ -s "g h/$name.png" ]
+        ok 'alone' [ "$(grep -c '^took' out)" -eq 1 ]
+    done
+    ok 'the other one is not' [ ! -e 'g h/ab.png' ]
+fi
+rm -rf bin 'g h' t
+
 # ---- What goes wrong ----
 
 fresh 'kind: hash'; exits 1 test s --golden g -q

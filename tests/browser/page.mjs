@@ -57,6 +57,8 @@ check('the first is shown', await title(tab) === 'moved', await title(tab));
 check('three panes side by side', (await tab.$$('.stage')).length === 3);
 check('what changed is told', /geometry moved/.test(await body(tab)), await body(tab));
 check('the command is there', /monge render .*moved\.yaml/.test(await body(tab)));
+check('so is that which takes the new picture', /monge accept --golden \S+ .*moved/.test(await body(tab)), await body(tab));
+check('the pixels are counted', /pixels[\d,]+ of [\d,]+/.test(await body(tab)), await body(tab));
 await shot(tab, 'side');
 
 const passes = await tab.$$eval('select[aria-label="What is shown"] option', (options) => options.map((option) => option.value));

@@ -133,6 +133,7 @@ void golden_results_free(struct golden_results *results) {
     free(results->cases);
     free(results->folder);
     free(results->from);
+    free(results->accept);
     golden_places_free(&results->places);
 }
 

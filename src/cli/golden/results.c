@@ -6,8 +6,10 @@
 
 #include "cli/aov.h"
 #include "cli/golden/folder.h"
+#include "cli/golden/take.h"
 #include "cli/paths.h"
 #include "cli/say.h"
+#include "cli/words.h"
 
 size_t golden_count(const struct golden_results *results, enum golden_status status) {
     size_t count = 0;
@@ -174,7 +176,26 @@ static void put_causes(FILE *out, const struct golden_case *c) {
             words[causes.options], words[causes.program]);
 }
 
-static void put_case(FILE *out, const struct golden_case *c) {
+/* The name as a glob that only it matches. */
+static char *glob_of(const char *name) {
+    char *glob = malloc(2 * strlen(name) + 1), *to = glob;
+    if (!glob) say_no_memory();
+    for (; *name; *to++ = *name++)
+        if (strchr("*?[\\", *name)) *to++ = '\\';
+    *to = '\0';
+    return glob;
+}
+
+static void put_accept_command(FILE *out, const char *accept, const struct golden_case *c) {
+    if (!accept || !golden_can_take(c) || c->taken) return;
+    char *glob = glob_of(c->name), *word = word_quoted(glob), *command = say_text("%s %s", accept, word);
+    put_text(out, "accept_command", command);
+    free(command);
+    free(word);
+    free(glob);
+}
+
+static void put_case(FILE *out, const char *accept, const struct golden_case *c) {
     fputs("    {\"name\": ", out);
     monge_write_json_string(c->name, out);
     put_text(out, "status", GOLDEN_STATUS[c->status]);
@@ -198,6 +219,7 @@ static void put_case(FILE *out, const struct golden_case *c) {
     put_text(out, "golden_line", c->golden_line);
     put_text(out, "command", c->command);
     put_text(out, "old_command", c->old_command);
+    put_accept_command(out, accept, c);
     put_key(out, "seconds");
     fprintf(out, "%.3f}", c->seconds);
 }
@@ -243,7 +265,7 @@ char *golden_results_text(const struct golden_results *results) {
     FILE *out = say_text_begin(&text, &size);
     put_head(out, results);
     for (size_t i = 0; i < results->count; i++) {
-        put_case(out, &results->cases[i]);
+        put_case(out, results->accept, &results->cases[i]);
         fputs(i + 1 < results->count ? ",\n" : "\n", out);
     }
     fputs(" ]}\n", out);

@@ -8,6 +8,7 @@
 struct golden_results {
     char *folder;                /* owned: of the goldens */
     char *from;                  /* owned: the folder that paths count from, absolute; NULL: not known */
+    char *accept;                /* owned: a shell's words that take all new pictures; NULL: of another run */
     struct golden_places places; /* of a run that looks for orphans */
     size_t elsewhere;            /* goldens of scenes that are in these places, and not in the run */
     struct golden_case *cases;

@@ -19,6 +19,7 @@
 #include "cli/interrupt.h"
 #include "cli/paths.h"
 #include "cli/say.h"
+#include "cli/words.h"
 
 /* A run, what has become of it, and how it is told. */
 struct test {
@@ -345,9 +346,7 @@ static void hint(const struct test *test) {
         orphans |= test->results.cases[i].status == GOLDEN_ORPHAN;
     }
     if (!(can || orphans)) return;
-    const bool usual = !wants(test, OPTION_TEST_OUTPUT);
-    fprintf(test->teller.out, "`monge accept --golden %s%s%s%s` %s\n", test->run.folder,
-            usual ? "" : " --output ", usual ? "" : test->run.output, orphans ? " --prune" : "",
+    fprintf(test->teller.out, "`%s%s` %s\n", test->results.accept, orphans ? " --prune" : "",
             !orphans ? "takes the new pictures"
             : can    ? "takes the new pictures and removes the orphans"
                      : "removes the orphans");
@@ -410,6 +409,15 @@ static bool is_standard(const struct option_value *option) {
     return option->given && strcmp(option->text, "-") == 0;
 }
 
+static char *accept_words(const struct golden_run *run, bool usual) {
+    char *folder = word_quoted(run->folder), *output = word_quoted(run->output);
+    char *words =
+        say_text("monge accept --golden %s%s%s", folder, usual ? "" : " --output ", usual ? "" : output);
+    free(output);
+    free(folder);
+    return words;
+}
+
 static bool begin(struct test *test, const struct arguments *args) {
     const struct option_value *option = args->option;
     struct golden_run *run = &test->run;
@@ -438,6 +446,7 @@ static bool begin(struct test *test, const struct arguments *args) {
                                .colors = isatty(fileno(out)) && !getenv("NO_COLOR")};
     test->results.folder = say_text("%s", run->folder);
     test->results.from = getcwd(NULL, 0);
+    test->results.accept = accept_words(run, !option[OPTION_TEST_OUTPUT].given);
     const enum monge_golden_kind kind = (enum monge_golden_kind)option[OPTION_GOLDEN_KIND].choice;
     if (!golden_check_folder(run->folder) || (run->old_program && !golden_check_old(run->old_program)) ||
         !loader_begin(&run->loader, args) ||

@@ -214,6 +214,7 @@ const number = (value) => typeof value !== 'number' ? String(value) : Number.isI
 
 function metricsTable(scene) {
   const rows = Object.entries(scene.metrics ?? {}).map(([name, value]) => make('tr', {}, make('th', {}, name), make('td', {class: 'number'}, value === null ? 'infinite' : number(value))));
+  if (scene.pixels) rows.unshift(make('tr', {}, make('th', {}, 'pixels'), make('td', {class: 'number'}, `${number(scene.pixels.different)} of ${number(scene.pixels.compared)}`)));
   if (scene.tolerance) rows.push(make('tr', {}, make('th', {}, 'allowed'), make('td', {}, `${scene.tolerance.text}: ${scene.tolerance.reason}`)));
   return rows.length ? [make('h3', {}, 'How much'), make('table', {}, ...rows)] : [];
 }
@@ -231,7 +232,7 @@ function commandLines(scene) {
     navigator.clipboard?.writeText(text);
     event.target.textContent = 'Copied';
   }}, 'Copy');
-  const commands = [['To see it again', scene.command], ['The old picture', scene.old_command]].filter(([, text]) => text);
+  const commands = [['To see it again', scene.command], ['The old picture', scene.old_command], ['To take the new one as the golden', scene.accept_command]].filter(([, text]) => text);
   return commands.flatMap(([title, text]) => [make('h3', {}, title), make('div', {class: 'command'}, make('pre', {}, text), copy(text))]);
 }
 
