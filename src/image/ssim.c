@@ -17,7 +17,7 @@ enum { OF_A, OF_B, A_A, B_B, A_B, MEANS };
 struct ssim {
     const struct comparison *comparison;
     double weight[WINDOW];
-    uint32_t margin_x, margin_y; /* pixels at the edges whose windows are not within */
+    uint32_t margin_x, margin_y; /* pixels at the edges that have no windows of their own */
     double *sums;                /* of each row */
     uint64_t *counts;
     atomic_uint next;
@@ -121,11 +121,16 @@ static void make_weights(double weight[WINDOW]) {
     for (int k = 0; k < WINDOW; k++) weight[k] /= sum;
 }
 
+/* Where pixels are ignored there may be none but those at the edges: so these have windows of their own then. */
+static uint32_t margin(const struct comparison *comparison, uint32_t size) {
+    return size >= WINDOW && !comparison->ignored ? RADIUS : 0;
+}
+
 bool ssim_mean(const struct comparison *comparison, double *mean) {
     const uint32_t width = comparison->a->width, height = comparison->a->height;
     struct ssim s = {.comparison = comparison,
-                     .margin_x = width >= WINDOW ? RADIUS : 0,
-                     .margin_y = height >= WINDOW ? RADIUS : 0,
+                     .margin_x = margin(comparison, width),
+                     .margin_y = margin(comparison, height),
                      .sums = calloc(height, sizeof *s.sums),
                      .counts = calloc(height, sizeof *s.counts)};
     bool good = s.sums && s.counts;

@@ -6,9 +6,10 @@
 
 #include "image/compare.h"
 
-/* The mean over the pixels whose window of 11 x 11 (a Gaussian of 1.5 pixels) is within the picture, and which are not
- * ignored; 1 where there are none. In a picture of less than 11 pixels that way the edge pixels are repeated. What is
- * ignored in b is as it is in a. The same bits for every number of threads. False: no memory. */
+/* The mean over the pixels whose window of 11 x 11 (a Gaussian of 1.5 pixels) is within the picture. In a picture of less
+ * than 11 pixels that way it is over all, and the edge pixels are repeated; so it is where some are ignored, over all others,
+ * and 1 where there are none: what is ignored in b is as it is in a. The same bits for every number of threads. False: no
+ * memory. */
 bool ssim_mean(const struct comparison *comparison, double *mean);
 
 #endif

@@ -275,15 +275,21 @@ static double luma(uint8_t (*byte)(size_t, size_t, size_t), size_t x, size_t y) 
     return (0.299 * byte(x, y, 0) + 0.587 * byte(x, y, 1) + 0.114 * byte(x, y, 2)) / 255.0;
 }
 
-/* Of the window around a pixel, in two passes: first the means, then what is about them. */
-static double window_ssim(size_t cx, size_t cy) {
+static size_t clamped(int value, size_t size) {
+    return value < 0 ? 0 : (size_t)value < size ? (size_t)value : size - 1;
+}
+
+/* Of the window around a pixel, in two passes: first the means, then what is about them. ignored NULL: nothing is. */
+static double window_ssim(int cx, int cy, const struct monge_region *ignored) {
     double weights = 0, ma = 0, mb = 0, va = 0, vb = 0, cov = 0;
     for (int pass = 0; pass < 2; pass++)
-        for (size_t y = cy - 5; y <= cy + 5; y++)
-            for (size_t x = cx - 5; x <= cx + 5; x++) {
-                const double dx = (double)x - (double)cx, dy = (double)y - (double)cy;
+        for (int dy = -5; dy <= 5; dy++)
+            for (int dx = -5; dx <= 5; dx++) {
+                const size_t x = clamped(cx + dx, 60), y = clamped(cy + dy, 50);
+                const bool skip =
+                    ignored && x - ignored->x < ignored->width && y - ignored->y < ignored->height;
                 const double w = exp(-(dx * dx + dy * dy) / 4.5);
-                const double a = luma(sample_byte, x, y), b = luma(other_byte, x, y);
+                const double a = luma(sample_byte, x, y), b = skip ? a : luma(other_byte, x, y);
                 if (pass == 0) weights += w, ma += w * a, mb += w * b;
                 if (pass == 1) {
                     va += w * (a - ma / weights) * (a - ma / weights) / weights;
@@ -298,14 +304,28 @@ static double window_ssim(size_t cx, size_t cy) {
 static void ssim_is_as_defined(void **state) {
     (void)state;
     double sum = 0;
-    for (size_t y = 5; y < 45; y++)
-        for (size_t x = 5; x < 55; x++) sum += window_ssim(x, y);
+    for (int y = 5; y < 45; y++)
+        for (int x = 5; x < 55; x++) sum += window_ssim(x, y, NULL);
     for (unsigned threads = 1; threads < 4; threads++) {
         const struct monge_difference d =
             compare_with(SAMPLE(60, 50, .byte = sample_byte), SAMPLE(60, 50, .byte = other_byte),
                          (struct monge_compare){.metrics = 1 << MONGE_METRIC_SSIM, .threads = threads});
         assert_near(d.ssim, sum / 2000.0, 1e-10, "ssim");
     }
+}
+
+/* Be it at the edge: two columns at the right, and two rows at the bottom. */
+static void ssim_is_of_all_that_is_not_ignored(void **state) {
+    (void)state;
+    const struct monge_region ignored = {0, 0, 58, 48};
+    double sum = 0;
+    for (int y = 0; y < 50; y++)
+        for (int x = y < 48 ? 58 : 0; x < 60; x++) sum += window_ssim(x, y, &ignored);
+    const struct monge_difference d = compare_with(
+        SAMPLE(60, 50, .byte = sample_byte), SAMPLE(60, 50, .byte = other_byte),
+        (struct monge_compare){.metrics = 1 << MONGE_METRIC_SSIM, .ignore = &ignored, .ignore_count = 1});
+    assert_int_equal(d.pixels, 2 * 48 + 2 * 60);
+    assert_near(d.ssim, sum / (double)d.pixels, 1e-10, "ssim");
 }
 
 static void ssim_of_small_pictures_is_a_number(void **state) {
@@ -335,6 +355,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(spaces_and_sizes_count, enter_folder, leave_folder),
         cmocka_unit_test_setup_teardown(equal_files_are_the_same, enter_folder, leave_folder),
         cmocka_unit_test_setup_teardown(ssim_is_as_defined, enter_folder, leave_folder),
+        cmocka_unit_test_setup_teardown(ssim_is_of_all_that_is_not_ignored, enter_folder, leave_folder),
         cmocka_unit_test_setup_teardown(ssim_of_small_pictures_is_a_number, enter_folder, leave_folder),
     };
     return cmocka_run_group_tests_name("compare", tests, NULL, NULL);
