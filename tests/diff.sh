@@ -154,9 +154,9 @@ flip --ppd 20; ok "--ppd matters" [ "$flip" != "$first" ]
 
 # ---- What is ignored ----
 
-exits 0 diff grey.png dot.png --ignore 19,14,2,2; out_is 'same: all of 1196 pixels are equal'
+exits 0 diff grey.png dot.png --ignore 19,14,2,2; out_is 'same: all of 1196 pixels are equal; 4 ignored'
 exits 1 diff grey.png dot.png --ignore 19,14,2,1; out_has '2 of 1198 pixels'
-exits 0 diff grey.png dot.png --ignore 0,0,20,30 --ignore=20,0,1000,29; out_is 'same: all of 20 pixels are equal'
+exits 0 diff grey.png dot.png --ignore 0,0,20,30 --ignore=20,0,1000,29; out_is 'same: all of 20 pixels are equal; 1180 ignored'
 render -o white.png -D at=0 -D 'shade=#000000'
 exits 0 diff grey.png dot.png --ignore white.png; out_has 'all of 1196 pixels'
 exits 0 diff grey.png dot.png --mask white.png; out_has 'all of 1196 pixels'

@@ -487,7 +487,8 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                     "of a "
                     "channel), mae and rmse (the mean of the differences, the root of the mean of their "
                     "squares), "
-                    "psnr (in decibels), ssim (structural similarity of luma, 1 for equal ones; Wang et al. "
+                    "psnr (in decibels), ssim (structural similarity of luma, 0.299 R + 0.587 G + 0.114 B, 1 "
+                    "for equal ones; Wang et al. "
                     "2004) "
                     "and flip (what is seen when they alternate, from 0 to 1; Andersson et al. 2020, --ppd "
                     "pixels "
@@ -502,7 +503,7 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                     "the "
                     "same size. A rectangle may reach over the edge, but not lie outside; to leave out all "
                     "is "
-                    "an error.",
+                    "an error. Where ssim and flip look around a pixel, what is left out is taken as equal.",
                     "--out writes a heat map: the first picture in dim grey, and what differs in colours "
                     "from "
                     "violet "

@@ -143,10 +143,17 @@ static void print_unlike(const struct diff_pair *pair, FILE *out) {
         fprintf(out, "they have %u and %u bits a channel; ", monge_picture_bits(a), monge_picture_bits(b));
 }
 
+static void print_ignored(const struct diff_pair *pair, FILE *out) {
+    const uint64_t all = (uint64_t)monge_picture_width(pair->a) * monge_picture_height(pair->a);
+    const uint64_t ignored = all - pair->difference.pixels;
+    if (ignored > 0) fprintf(out, "; %" PRIu64 " ignored", ignored);
+}
+
 static void print_pixels(const struct diff_pair *pair, FILE *out) {
     const struct monge_difference *d = &pair->difference;
     if (d->different == 0) {
         fprintf(out, "all of %" PRIu64 " pixels are equal", d->pixels);
+        print_ignored(pair, out);
         return;
     }
     const struct option_value *option = pair->diff->args->option;
@@ -159,6 +166,7 @@ static void print_pixels(const struct diff_pair *pair, FILE *out) {
         fprintf(out, "; %" PRIu64 " beyond --max-delta", d->beyond);
     if (option[OPTION_MAX_PIXELS].given && !pixels_pass(pair->diff, d))
         fputs("; more than --max-pixels", out);
+    print_ignored(pair, out);
 }
 
 /* Of what --max-delta is a limit for: of channels that is the largest difference. */

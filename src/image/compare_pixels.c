@@ -15,7 +15,8 @@ enum {
     BAND = 16                /* rows that a thread takes at a time */
 };
 
-/* How both pictures are read: with as many channels and bits as the one that has more. */
+/* How both pictures are read: with as many channels and bits as the one that has more. Grey with alpha is read as colours
+ * with alpha, so that means are the same however a picture is stored. */
 struct layout {
     unsigned colors, channels; /* colors: 1 or 3; channels: with alpha */
     unsigned bits;
@@ -25,8 +26,10 @@ struct layout {
 static struct layout common_layout(const struct monge_picture *a, const struct monge_picture *b) {
     const bool color = a->channels >= 3 || b->channels >= 3;
     const bool alpha = a->channels % 2 == 0 || b->channels % 2 == 0;
-    const unsigned colors = color ? 3 : 1, bits = a->bits > b->bits ? a->bits : b->bits;
-    return (struct layout){colors, colors + alpha, bits, a->bits == b->bits && a->channels == b->channels};
+    const unsigned colors = color || alpha ? 3 : 1, bits = a->bits > b->bits ? a->bits : b->bits;
+    return (struct layout){colors, colors + alpha, bits,
+                           a->bits == bits && b->bits == bits && a->channels == colors + alpha &&
+                               b->channels == colors + alpha};
 }
 
 static unsigned max_code(const struct layout *layout) { return (1u << layout->bits) - 1; }
@@ -205,6 +208,9 @@ INLINE void count_alike(const struct job *job, struct tally *t, uint32_t y, unsi
 static void count_unlike(const struct job *job, struct tally *t, uint32_t y) {
     const struct monge_picture *a = job->comparison->a, *b = job->comparison->b;
     const uint8_t *ignored = comparison_ignored(job->comparison, y);
+    const bool same_kind = a->bits == b->bits && a->channels == b->channels;
+    if (same_kind && memcmp(picture_row(a, y), picture_row(b, y), a->width * picture_pixel_size(a)) == 0)
+        return;
     for (uint32_t x = 0; x < a->width; x++) {
         uint16_t of_a[4], of_b[4];
         if (ignored && ignored[x]) continue;
@@ -278,7 +284,7 @@ static void tell(const struct tally *t, uint64_t pixels, const struct layout *la
     out->max_y = t->max_y;
     out->mae = (double)t->sum / numbers / max;
     out->rmse = sqrt((double)t->squares / numbers) / max;
-    out->psnr = t->squares > 0 ? -20.0 * elementary_log10(out->rmse) : INFINITY;
+    out->psnr = t->squares > 0 ? 0.0 - 20.0 * elementary_log10(out->rmse) : INFINITY; /* 0, not -0 */
     if (t->different > 0)
         out->bounds = (struct monge_region){t->left, t->top, t->right - t->left + 1, t->bottom - t->top + 1};
 }

@@ -240,6 +240,43 @@ static void bits_count(void **state) {
     assert_near(d.max, 1.0 / 65535.0, 0.0, "one of 16 bits");
 }
 
+static uint8_t rough_grey(size_t x, size_t y, size_t i) { return sample_byte(x, y, i / 3); }
+static uint8_t other_grey(size_t x, size_t y, size_t i) {
+    return (uint8_t)(rough_grey(x, y, i) ^ (x + y) % 7);
+}
+static uint8_t rough_pair(size_t x, size_t y, size_t i) { return rough_grey(x, y, 3 * i); }
+static uint8_t other_pair(size_t x, size_t y, size_t i) { return other_grey(x, y, 3 * i); }
+
+/* Grey with alpha, and the same as colours. */
+static void means_do_not_depend_on_how_it_is_stored(void **state) {
+    (void)state;
+    static const int types[] = {PNG_COLOR_TYPE_GRAY_ALPHA, PNG_COLOR_TYPE_RGB_ALPHA};
+    struct monge_difference d[2][2];
+    for (int a = 0; a < 2; a++)
+        for (int b = 0; b < 2; b++)
+            d[a][b] =
+                compare(SAMPLE(50, 40, .type = types[a], .bits = 8, .byte = a ? rough_grey : rough_pair),
+                        SAMPLE(50, 40, .type = types[b], .bits = 8, .byte = b ? other_grey : other_pair));
+    for (int i = 0; i < 3; i++) {
+        const struct monge_difference *one = &d[i / 2][i % 2], *other = &d[1][1];
+        assert_true(one->different == other->different && one->mae > 0.0);
+        assert_near(one->mae, other->mae, 0.0, "mae");
+        assert_near(one->rmse, other->rmse, 0.0, "rmse");
+    }
+}
+
+static uint8_t black(size_t x, size_t y, size_t i) { return (void)x, (void)y, (void)i, 0; }
+static uint8_t white(size_t x, size_t y, size_t i) { return (void)x, (void)y, (void)i, 255; }
+
+static void nothing_is_worse_than_black_and_white(void **state) {
+    (void)state;
+    const struct monge_difference d =
+        compare(SAMPLE(WIDTH, HEIGHT, .byte = black), SAMPLE(WIDTH, HEIGHT, .byte = white));
+    assert_int_equal(d.different, d.pixels);
+    assert_true(d.max == 1.0 && d.mae == 1.0 && d.rmse == 1.0);
+    assert_true(d.psnr == 0.0 && !signbit(d.psnr)); /* else it is printed as -0 */
+}
+
 static void spaces_and_sizes_count(void **state) {
     (void)state;
     const struct sample *plain = SAMPLE(30, 20, .byte = flat);
@@ -352,6 +389,8 @@ int main(void) {
         cmocka_unit_test_setup_teardown(forms_do_not_count, enter_folder, leave_folder),
         cmocka_unit_test_setup_teardown(palettes_are_looked_up, enter_folder, leave_folder),
         cmocka_unit_test_setup_teardown(bits_count, enter_folder, leave_folder),
+        cmocka_unit_test_setup_teardown(means_do_not_depend_on_how_it_is_stored, enter_folder, leave_folder),
+        cmocka_unit_test_setup_teardown(nothing_is_worse_than_black_and_white, enter_folder, leave_folder),
         cmocka_unit_test_setup_teardown(spaces_and_sizes_count, enter_folder, leave_folder),
         cmocka_unit_test_setup_teardown(equal_files_are_the_same, enter_folder, leave_folder),
         cmocka_unit_test_setup_teardown(ssim_is_as_defined, enter_folder, leave_folder),
