@@ -208,14 +208,15 @@ INLINE void count_alike(const struct job *job, struct tally *t, uint32_t y, unsi
 static void count_unlike(const struct job *job, struct tally *t, uint32_t y) {
     const struct monge_picture *a = job->comparison->a, *b = job->comparison->b;
     const uint8_t *ignored = comparison_ignored(job->comparison, y);
+    const size_t size_a = picture_pixel_size(a), size_b = picture_pixel_size(b);
     const bool same_kind = a->bits == b->bits && a->channels == b->channels;
-    if (same_kind && memcmp(picture_row(a, y), picture_row(b, y), a->width * picture_pixel_size(a)) == 0)
-        return;
-    for (uint32_t x = 0; x < a->width; x++) {
+    const uint8_t *at_a = picture_row(a, y), *at_b = picture_row(b, y);
+    if (same_kind && memcmp(at_a, at_b, a->width * size_a) == 0) return;
+    for (uint32_t x = 0; x < a->width; x++, at_a += size_a, at_b += size_b) {
         uint16_t of_a[4], of_b[4];
-        if (ignored && ignored[x]) continue;
-        read_pixel(a, picture_row(a, y) + x * picture_pixel_size(a), &job->layout, of_a);
-        read_pixel(b, picture_row(b, y) + x * picture_pixel_size(b), &job->layout, of_b);
+        if ((ignored && ignored[x]) || (same_kind && memcmp(at_a, at_b, size_a) == 0)) continue;
+        read_pixel(a, at_a, &job->layout, of_a);
+        read_pixel(b, at_b, &job->layout, of_b);
         count_numbers(job, t, x, y, of_a, of_b, job->layout.channels);
     }
 }
