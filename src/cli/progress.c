@@ -109,15 +109,6 @@ static size_t count_working(const struct progress *p) {
 
 static bool is_rendering(const struct progress_unit *unit) { return unit->name != NULL; }
 
-/* The parts of a picture differ: the last half of the time counts most. */
-static void add_share(struct progress_unit *unit, double seconds) {
-    unit->seconds += seconds;
-    if (seconds <= 0.0) return;
-    const double kept = 1.0 / (1.0 + 2.0 * seconds / unit->seconds);
-    unit->recent_work *= kept;
-    unit->recent_seconds = unit->recent_seconds * kept + seconds;
-}
-
 /* Shares the time up to now among those at work. What it takes to write a picture counts as its rendering. */
 static void share_time(struct progress *p) {
     const double now = clock_seconds();
@@ -127,7 +118,7 @@ static void share_time(struct progress *p) {
             unit->reading += share;
             continue;
         }
-        add_share(unit, share);
+        unit->seconds += share;
         p->seconds += share;
     }
     p->now = now;
@@ -158,7 +149,7 @@ static double rendering_left(const struct progress *p) {
     const double pace = p->seconds / p->worked; /* seconds for a piece of work */
     double seconds = (double)(p->units - p->begun) * mean_work(p) * pace;
     for (const struct progress_unit *unit = p->first; unit; unit = unit->next) {
-        const double own = unit->recent_work > 0.0 ? unit->recent_seconds / unit->recent_work : pace;
+        const double own = unit->worked > 0.0 ? unit->seconds / unit->worked : pace;
         seconds += unit->work > 0.0 ? pictures_left(unit) * unit->work * own : mean_work(p) * pace;
     }
     return seconds;
@@ -299,7 +290,7 @@ static void move(struct progress_unit *unit, uint64_t done) {
     const uint64_t made = pixels_made(unit, done) - pixels_made(unit, unit->pixels);
     const double work = unit->work * (double)made / (double)unit->of_pixels;
     unit->pixels = done;
-    unit->recent_work += work;
+    unit->worked += work;
     unit->progress->worked += work;
 }
 

@@ -30,16 +30,16 @@ enum progress_wish {
 /* A unit of the batch: pictures that are made one after another. */
 struct progress_unit {
     struct progress *progress;
-    struct progress_unit *next;         /* of those at work, in the order in which they began */
-    size_t pictures, done;              /* of the unit; until more is known, it is thought to have one */
-    const char *name;                   /* of the picture at work; the caller's; NULL: none is rendered */
-    const struct picture *picture;      /* the same */
-    uint64_t pixels, of_pixels;         /* of it, that are done */
-    uint64_t known;                     /* of these, that were so before it began */
-    double work;                        /* of a whole picture; 0: not known yet */
-    double reading;                     /* the share of the time before that was known */
-    double seconds;                     /* the share of the time that its rendering has had */
-    double recent_work, recent_seconds; /* what came of it, and that: of the latest the most */
+    struct progress_unit *next;    /* of those at work, in the order in which they began */
+    size_t pictures, done;         /* of the unit; until more is known, it is thought to have one */
+    const char *name;              /* of the picture at work; the caller's; NULL: none is rendered */
+    const struct picture *picture; /* the same */
+    uint64_t pixels, of_pixels;    /* of it, that are done */
+    uint64_t known;                /* of these, that were so before it began */
+    double work;                   /* of a whole picture; 0: not known yet */
+    double reading;                /* the share of the time before that was known */
+    double seconds;                /* the share of the time that its rendering has had */
+    double worked;                 /* what came of it */
 };
 
 struct progress {

@@ -8,6 +8,12 @@ enum { TILE_SIZE = 1 };
 #else
 enum { TILE_SIZE = 32 }; /* pixels a side */
 #endif
+enum { MANY_RUNS = 128 };
+
+/* In which tiles are made: in runs of `length`, from each to the one that is `step` further, round and round. */
+struct order {
+    uint32_t length, runs, step;
+};
 
 #define NO_INSTANCE UINT32_MAX
 
@@ -15,7 +21,8 @@ enum { TILE_SIZE = 32 }; /* pixels a side */
 struct run {
     const struct tiling *tiling;
     uint32_t tiles_across, tile_count;
-    atomic_uint next_tile;
+    struct order order;
+    atomic_uint next_tile; /* counts them in that order */
     atomic_uint_fast64_t pixels_done;
     atomic_uint too_many_in; /* the number of an instance where a ray was given up; NO_INSTANCE: none */
     atomic_flag reporting;   /* a thread is in job->progress */
@@ -69,6 +76,24 @@ static bool fill_tile(const struct tiling *tiling, const struct monge_region *ti
     return true;
 }
 
+static uint32_t greatest_divisor(uint32_t a, uint32_t b) { return b == 0 ? a : greatest_divisor(b, a % b); }
+
+/* Runs of neighbors, which need the same of the scene; runs that follow each other are far apart, so that those that are
+ * done stand for all, be the sky ever so quick: the time that is left can be told. A step by the golden section spreads any
+ * number of them; without a common divisor with their count it comes to each one. */
+static struct order find_order(uint32_t tiles) {
+    const uint32_t length = tiles / MANY_RUNS + 1, runs = (tiles + length - 1) / length;
+    uint32_t step = (uint32_t)(0.6180339887498949 * runs) + 1;
+    while (greatest_divisor(step, runs) != 1) step++;
+    return (struct order){length, runs, step};
+}
+
+/* The tile that comes `next`; no smaller than their count: there is none. */
+static uint32_t tile_of(const struct order *order, uint32_t next) {
+    const uint64_t run = (uint64_t)(next / order->length) * order->step % order->runs;
+    return (uint32_t)run * order->length + next % order->length;
+}
+
 static void make_tile(struct run *run, uint32_t number, struct tracing *tracing) {
     const struct monge_region tile = tile_region(run, number);
     const uint64_t pixels = (uint64_t)tile.width * tile.height;
@@ -81,9 +106,10 @@ static void make_tiles(void *context, unsigned thread) {
     struct tracing tracing = {.watch.cancel = run->tiling->job->cancel};
     (void)thread;
     for (;;) {
-        const uint32_t tile = atomic_fetch_add(&run->next_tile, 1);
-        if (tile >= run->tile_count || is_stopped(run)) break;
-        make_tile(run, tile, &tracing);
+        const uint32_t next = atomic_fetch_add(&run->next_tile, 1);
+        if (next >= run->order.runs * run->order.length || is_stopped(run)) break;
+        const uint32_t tile = tile_of(&run->order, next);
+        if (tile < run->tile_count) make_tile(run, tile, &tracing);
     }
     if (tracing.watch.stop == ACCEL_TOO_MANY_ENTRIES) atomic_store(&run->too_many_in, tracing.watch.number);
     for (int kind = 0; kind < MONGE_RAY_KINDS; kind++) atomic_fetch_add(&run->rays[kind], tracing.rays[kind]);
@@ -109,6 +135,7 @@ bool tiles_run(const struct tiling *tiling, struct monge_stats *stats) {
     struct run run = {.tiling = tiling, .too_many_in = NO_INSTANCE, .reporting = ATOMIC_FLAG_INIT};
     run.tiles_across = (region->width + TILE_SIZE - 1) / TILE_SIZE;
     run.tile_count = run.tiles_across * ((region->height + TILE_SIZE - 1) / TILE_SIZE);
+    run.order = find_order(run.tile_count);
     stats->threads = tiling->job->threads ? tiling->job->threads : parallel_processors();
     if (stats->threads > PARALLEL_MAX_THREADS) stats->threads = PARALLEL_MAX_THREADS;
     if (stats->threads > run.tile_count) stats->threads = run.tile_count;

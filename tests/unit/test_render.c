@@ -181,6 +181,46 @@ static void test_tiles(void **state) {
     free(text);
 }
 
+/* Somebody who has all tiles, and notes which are asked for. */
+struct asking {
+    size_t tiles, all; /* asked for; of the picture */
+    double x, y;       /* sums over the first eighth: of the tiles' middles, as parts of the picture */
+    double width, height;
+};
+
+static bool note_tile(void *context, const struct monge_region *tile, float *rgb, size_t stride) {
+    struct asking *asking = context;
+    (void)rgb, (void)stride;
+    if (asking->tiles++ >= asking->all / 8) return true;
+    asking->x += (tile->x + 0.5 * tile->width) / asking->width;
+    asking->y += (tile->y + 0.5 * tile->height) / asking->height;
+    return true;
+}
+
+/* The first tiles are spread over the picture: their mean is its middle. So what they took tells what the others will. */
+static void test_first_tiles(void **state) {
+    (void)state;
+    static const uint32_t sizes[][2] = {{640, 480}, {512, 512}, {1920, 64}, {96, 1600}, {1057, 737}};
+    char *text = busy_scene(1, 32, 32);
+    struct monge_scene *scene = load(text);
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
+        struct monge_settings settings = monge_scene_settings(scene);
+        settings.width = sizes[i][0], settings.height = sizes[i][1];
+        struct asking asking = {.width = settings.width, .height = settings.height};
+        asking.all = (size_t)((settings.width + 31) / 32) * ((settings.height + 31) / 32);
+        const struct monge_tiles tiles = {&asking, note_tile, NULL, NULL};
+        const struct monge_job job = {.threads = 1, .tiles = &tiles};
+        struct monge_film *film = monge_render(scene, &settings, NULL, &job, NULL);
+        assert_non_null(film);
+        const double first = (double)(asking.all / 8);
+        assert_near(asking.x / first, 0.5, 0.1, "their middle along x");
+        assert_near(asking.y / first, 0.5, 0.1, "their middle along y");
+        monge_film_free(film);
+    }
+    monge_scene_free(scene);
+    free(text);
+}
+
 static void test_scale_of_the_world(void **state) {
     (void)state;
     char *text = busy_scene(1, 160, 120);
@@ -497,15 +537,22 @@ int main(void) {
     for (size_t i = 0; i < sizeof counts / sizeof *counts; i++)
         rows[i] = (struct CMUnitTest){counts[i].name, check_counts, NULL, NULL, &counts[i]};
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_progress),      cmocka_unit_test(test_no_more_threads_than_tiles),
+        cmocka_unit_test(test_progress),
+        cmocka_unit_test(test_no_more_threads_than_tiles),
 #ifdef __GLIBC__
         cmocka_unit_test(test_memory),
 #endif
-        cmocka_unit_test(test_threads),       cmocka_unit_test(test_regions),
-        cmocka_unit_test(test_tiles),         cmocka_unit_test(test_samples),
-        cmocka_unit_test(test_eye_in_glass),  cmocka_unit_test(test_scale_of_the_world),
-        cmocka_unit_test(test_perspective),   cmocka_unit_test(test_orthographic),
-        cmocka_unit_test(test_straight_down), cmocka_unit_test(test_framing),
+        cmocka_unit_test(test_threads),
+        cmocka_unit_test(test_regions),
+        cmocka_unit_test(test_tiles),
+        cmocka_unit_test(test_first_tiles),
+        cmocka_unit_test(test_samples),
+        cmocka_unit_test(test_eye_in_glass),
+        cmocka_unit_test(test_scale_of_the_world),
+        cmocka_unit_test(test_perspective),
+        cmocka_unit_test(test_orthographic),
+        cmocka_unit_test(test_straight_down),
+        cmocka_unit_test(test_framing),
     };
     return cmocka_run_group_tests_name("rays", rows, NULL, NULL) +
            cmocka_run_group_tests_name("render", tests, NULL, NULL);
