@@ -228,9 +228,9 @@ static bool take_size(struct monge_picture *picture, struct reader *r) {
     picture->height = png_get_image_height(r->png, r->info);
     picture->bits = bits == 16 ? 16 : 8;
     picture->channels = (type & PNG_COLOR_MASK_COLOR ? 3u : 1u) + alpha;
-    const bool whole = bits >= 8 && png_get_interlace_type(r->png, r->info) == PNG_INTERLACE_NONE;
-    picture->indexed = whole && type == PNG_COLOR_TYPE_PALETTE;
-    picture->plain = whole && type != PNG_COLOR_TYPE_PALETTE && !keyed;
+    picture->interlaced = png_get_interlace_type(r->png, r->info) != PNG_INTERLACE_NONE;
+    picture->indexed = bits >= 8 && type == PNG_COLOR_TYPE_PALETTE;
+    picture->plain = bits >= 8 && type != PNG_COLOR_TYPE_PALETTE && !keyed;
     if (picture->indexed) take_palette(picture, r);
     if ((uint64_t)picture->width * picture->height <= MONGE_MAX_PIXELS) return true;
     return fail(r->reason, "it is too large: %u x %u pixels, of at most %d together", picture->width,

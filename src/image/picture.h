@@ -33,9 +33,10 @@ struct monge_picture {
     struct picture_data data;
     uint32_t width, height;
     unsigned bits, channels; /* as decoded: 8 or 16, 1 to 4 */
-    bool plain;              /* rows are in the file as they are decoded, but for compression and filters; */
-    bool indexed;            /* as numbers of one byte of colors in: */
+    bool plain;   /* pixels are in the file as they are decoded, but for compression and filters; */
+    bool indexed; /* as numbers of one byte of colors in: */
     uint8_t palette[256][4]; /* red, green, blue, alpha */
+    bool interlaced;         /* in seven passes */
     struct color_space space;
     struct picture_text *texts;
     size_t text_count;
@@ -59,7 +60,7 @@ void picture_close(struct monge_picture *picture);
  * memory for them. */
 bool picture_decode(struct monge_picture *picture, char reason[PICTURE_REASON_SIZE]);
 
-/* The same for the rows of a plain or indexed picture, by libdeflate: several times as fast as libpng's way, and giving up
+/* The same for a plain or indexed picture, by libdeflate: several times as fast as libpng's way, and giving up
  * wherever something is out of the ordinary. picture->memory stays NULL when it fails. */
 void picture_decode_plain(struct monge_picture *picture);
 

@@ -20,15 +20,91 @@ static bool inflate_rows(const struct monge_picture *picture, uint8_t *out, size
     return good && made == size;
 }
 
-/* Rows of pixels of `step` bytes, each with the number of its filter before it. NULL: it did not work out. */
-static uint8_t *decode_rows(const struct monge_picture *picture, size_t step) {
+/* Whether the data can be of so many bytes: before memory is taken for them. */
+static bool has_data(const struct monge_picture *picture, size_t size) {
+    return size / DEFLATE_MAX_RATIO <= picture->data.bytes;
+}
+
+static uint8_t *decode_straight(const struct monge_picture *picture, size_t step) {
     const size_t stride = 1 + picture->width * step, size = stride * picture->height;
-    if (size / DEFLATE_MAX_RATIO > picture->data.bytes) return NULL;
-    uint8_t *rows = pages_alloc(size + FILTERS_ROOM);
+    uint8_t *rows = has_data(picture, size) ? pages_alloc(size + FILTERS_ROOM) : NULL;
     if (rows && inflate_rows(picture, rows, size) && filters_undo(rows + 1, stride, picture->height, step))
         return rows;
     free(rows);
     return NULL;
+}
+
+/* ---- Interlaced pictures: PNG specification, chapter 8 ---- */
+
+/* Of every `down` rows from y on the pixels from x on, every `across`. */
+static const struct pass {
+    uint32_t x, y, across, down;
+} passes[] = {{0, 0, 8, 8}, {4, 0, 8, 8}, {0, 4, 4, 8}, {2, 0, 4, 4},
+              {0, 2, 2, 4}, {1, 0, 2, 2}, {0, 1, 1, 2}};
+enum { PASSES = sizeof passes / sizeof *passes };
+
+static uint32_t count_from(uint32_t first, uint32_t size, uint32_t every) {
+    return first < size ? (size - first - 1) / every + 1 : 0;
+}
+
+/* A row of a pass with the number of its filter; one without pixels has not even that. */
+static size_t pass_stride(const struct pass *pass, const struct monge_picture *picture, size_t step) {
+    const size_t width = count_from(pass->x, picture->width, pass->across);
+    return width > 0 ? 1 + width * step : 0;
+}
+
+static uint32_t pass_height(const struct pass *pass, const struct monge_picture *picture) {
+    return count_from(pass->y, picture->height, pass->down);
+}
+
+INLINE void spread_row(uint8_t *out, const uint8_t *row, size_t size, size_t every, size_t step) {
+    for (size_t i = 0; i < size; i += step, out += every) memcpy(out, row + i, step);
+}
+
+static void place_row(uint8_t *out, const uint8_t *row, size_t size, size_t every, size_t step) {
+    switch (step) {
+    case 1: spread_row(out, row, size, every, 1); break;
+    case 2: spread_row(out, row, size, every, 2); break;
+    case 3: spread_row(out, row, size, every, 3); break;
+    case 4: spread_row(out, row, size, every, 4); break;
+    case 6: spread_row(out, row, size, every, 6); break;
+    case 8: spread_row(out, row, size, every, 8); break;
+    }
+}
+
+/* Undoes the filters of the pass, and puts its pixels to `rows` of the picture. */
+static bool place_pass(const struct pass *pass, const struct monge_picture *picture, uint8_t *packed,
+                       uint8_t *rows, size_t step) {
+    const size_t stride = pass_stride(pass, picture, step), all = 1 + picture->width * step;
+    const uint32_t height = pass_height(pass, picture);
+    if (stride == 0 || height == 0) return true;
+    if (!filters_undo(packed + 1, stride, height, step)) return false;
+    for (uint32_t i = 0; i < height; i++)
+        place_row(rows + (pass->y + (size_t)i * pass->down) * all + 1 + pass->x * step,
+                  packed + i * stride + 1, stride - 1, pass->across * step, step);
+    return true;
+}
+
+static uint8_t *decode_passes(const struct monge_picture *picture, size_t step) {
+    size_t begin[PASSES + 1] = {0};
+    for (int i = 0; i < PASSES; i++)
+        begin[i + 1] = begin[i] + pass_stride(&passes[i], picture, step) * pass_height(&passes[i], picture);
+    const size_t size = begin[PASSES];
+    if (!has_data(picture, size)) return NULL;
+    uint8_t *packed = pages_alloc(size + FILTERS_ROOM);
+    uint8_t *rows = pages_alloc((1 + picture->width * step) * picture->height);
+    bool good = packed && rows && inflate_rows(picture, packed, size);
+    for (int i = 0; good && i < PASSES; i++)
+        good = place_pass(&passes[i], picture, packed + begin[i], rows, step);
+    free(packed);
+    if (good) return rows;
+    free(rows);
+    return NULL;
+}
+
+/* Rows of pixels of `step` bytes, before each a byte that is of no use any more. NULL: it did not work out. */
+static uint8_t *decode_rows(const struct monge_picture *picture, size_t step) {
+    return picture->interlaced ? decode_passes(picture, step) : decode_straight(picture, step);
 }
 
 /* ---- Colors by number ---- */

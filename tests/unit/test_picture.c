@@ -83,6 +83,22 @@ static void all_neighbors_are_told_apart(void **state) {
                         .byte = neighbors));
 }
 
+/* Interlaced: of small pictures some passes have no pixels, and of others each has one more or less. */
+static void passes_are_put_together(void **state) {
+    (void)state;
+    static const struct {
+        int type, bits;
+    } kinds[] = {{PNG_COLOR_TYPE_GRAY, 8},   {PNG_COLOR_TYPE_GRAY_ALPHA, 8},
+                 {PNG_COLOR_TYPE_RGB, 8},    {PNG_COLOR_TYPE_RGB_ALPHA, 8},
+                 {PNG_COLOR_TYPE_RGB, 16},   {PNG_COLOR_TYPE_RGB_ALPHA, 16},
+                 {PNG_COLOR_TYPE_PALETTE, 8}};
+    for (size_t k = 0; k < COUNT(kinds); k++)
+        for (uint32_t width = 1; width <= 17; width++)
+            for (uint32_t height = 1; height <= 17; height += width > 9 ? 4 : 1)
+                check_sample(
+                    SAMPLE(width, height, .type = kinds[k].type, .bits = kinds[k].bits, .interlaced = true));
+}
+
 static void pixels_may_be_in_many_chunks(void **state) {
     (void)state;
     check_sample(SAMPLE(200, 100, .pieces = 64));
@@ -364,6 +380,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(all_kinds_are_read, enter_folder, leave_folder),
         cmocka_unit_test_setup_teardown(all_filters_are_undone, enter_folder, leave_folder),
         cmocka_unit_test_setup_teardown(all_neighbors_are_told_apart, enter_folder, leave_folder),
+        cmocka_unit_test_setup_teardown(passes_are_put_together, enter_folder, leave_folder),
         cmocka_unit_test_setup_teardown(pixels_may_be_in_many_chunks, enter_folder, leave_folder),
         cmocka_unit_test_setup_teardown(texts_are_found, enter_folder, leave_folder),
         cmocka_unit_test_setup_teardown(color_spaces_are_told, enter_folder, leave_folder),
