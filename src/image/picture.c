@@ -220,6 +220,41 @@ static void take_palette(struct monge_picture *picture, struct reader *r) {
     }
 }
 
+/* Grey of at most 8 bits, as a palette: of 8 bits, and with alpha where a grey is transparent. */
+static void take_greys(struct monge_picture *picture, unsigned bits, const png_color_16 *key) {
+    const unsigned most = (1u << bits) - 1;
+    for (unsigned i = 0; i <= most; i++) {
+        const uint8_t alpha = key && (key->gray & most) == i ? 0 : 255; /* as libpng has it */
+        memcpy(picture->palette[i], (uint8_t[2]){(uint8_t)(i * 255 / most), alpha}, 2);
+    }
+}
+
+static void take_key(struct monge_picture *picture, const png_color_16 *key, bool colors) {
+    const uint16_t numbers[3] = {colors ? key->red : key->gray, key->green, key->blue};
+    uint8_t *to = picture->key;
+    for (unsigned i = 0; i < 3; i++) {
+        if (picture->bits == 16) *to++ = (uint8_t)(numbers[i] >> 8);
+        *to++ = (uint8_t)numbers[i];
+    }
+}
+
+/* How the pixels are in the file. */
+static void take_form(struct monge_picture *picture, struct reader *r, int type, int bits) {
+    png_color_16p key = NULL;
+    png_get_tRNS(r->png, r->info, NULL, NULL, &key);
+    picture->number_bits = (unsigned)bits;
+    picture->interlaced = png_get_interlace_type(r->png, r->info) != PNG_INTERLACE_NONE;
+    picture->indexed =
+        type == PNG_COLOR_TYPE_PALETTE || (type == PNG_COLOR_TYPE_GRAY && (bits < 8 || (bits == 8 && key)));
+    picture->keyed = key && !picture->indexed;
+    if (type == PNG_COLOR_TYPE_PALETTE)
+        take_palette(picture, r);
+    else if (picture->indexed)
+        take_greys(picture, (unsigned)bits, key);
+    else if (key)
+        take_key(picture, key, type & PNG_COLOR_MASK_COLOR);
+}
+
 static bool take_size(struct monge_picture *picture, struct reader *r) {
     const int type = png_get_color_type(r->png, r->info), bits = png_get_bit_depth(r->png, r->info);
     const bool keyed = png_get_valid(r->png, r->info, PNG_INFO_tRNS);
@@ -228,10 +263,7 @@ static bool take_size(struct monge_picture *picture, struct reader *r) {
     picture->height = png_get_image_height(r->png, r->info);
     picture->bits = bits == 16 ? 16 : 8;
     picture->channels = (type & PNG_COLOR_MASK_COLOR ? 3u : 1u) + alpha;
-    picture->interlaced = png_get_interlace_type(r->png, r->info) != PNG_INTERLACE_NONE;
-    picture->indexed = bits >= 8 && type == PNG_COLOR_TYPE_PALETTE;
-    picture->plain = bits >= 8 && type != PNG_COLOR_TYPE_PALETTE && !keyed;
-    if (picture->indexed) take_palette(picture, r);
+    take_form(picture, r, type, bits);
     if ((uint64_t)picture->width * picture->height <= MONGE_MAX_PIXELS) return true;
     return fail(r->reason, "it is too large: %u x %u pixels, of at most %d together", picture->width,
                 picture->height, MONGE_MAX_PIXELS);

@@ -33,10 +33,13 @@ struct monge_picture {
     struct picture_data data;
     uint32_t width, height;
     unsigned bits, channels; /* as decoded: 8 or 16, 1 to 4 */
-    bool plain;   /* pixels are in the file as they are decoded, but for compression and filters; */
-    bool indexed; /* as numbers of one byte of colors in: */
-    uint8_t palette[256][4]; /* red, green, blue, alpha */
+    /* In the file, but for compression and filters: */
+    unsigned number_bits;    /* 1, 2, 4, 8 or 16 */
     bool interlaced;         /* in seven passes */
+    bool indexed;            /* a pixel is one number, of an entry in: */
+    uint8_t palette[256][4]; /* as it is decoded: red, green, blue, alpha; grey, alpha */
+    bool keyed;              /* a pixel of these bytes is transparent, of others opaque: */
+    uint8_t key[6];
     struct color_space space;
     struct picture_text *texts;
     size_t text_count;
@@ -60,7 +63,7 @@ void picture_close(struct monge_picture *picture);
  * memory for them. */
 bool picture_decode(struct monge_picture *picture, char reason[PICTURE_REASON_SIZE]);
 
-/* The same for a plain or indexed picture, by libdeflate: several times as fast as libpng's way, and giving up
+/* The same by libdeflate: several times as fast as libpng's way, and giving up
  * wherever something is out of the ordinary. picture->memory stays NULL when it fails. */
 void picture_decode_plain(struct monge_picture *picture);
 

@@ -25,8 +25,8 @@ static bool has_data(const struct monge_picture *picture, size_t size) {
     return size / DEFLATE_MAX_RATIO <= picture->data.bytes;
 }
 
-static uint8_t *decode_straight(const struct monge_picture *picture, size_t step) {
-    const size_t stride = 1 + picture->width * step, size = stride * picture->height;
+static uint8_t *decode_straight(const struct monge_picture *picture, size_t stride, size_t step) {
+    const size_t size = stride * picture->height;
     uint8_t *rows = has_data(picture, size) ? pages_alloc(size + FILTERS_ROOM) : NULL;
     if (rows && inflate_rows(picture, rows, size) && filters_undo(rows + 1, stride, picture->height, step))
         return rows;
@@ -102,42 +102,93 @@ static uint8_t *decode_passes(const struct monge_picture *picture, size_t step) 
     return NULL;
 }
 
-/* Rows of pixels of `step` bytes, before each a byte that is of no use any more. NULL: it did not work out. */
-static uint8_t *decode_rows(const struct monge_picture *picture, size_t step) {
-    return picture->interlaced ? decode_passes(picture, step) : decode_straight(picture, step);
+/* ---- Pixels that are not as they are decoded ---- */
+
+INLINE void unpack(const uint8_t *row, uint8_t *numbers, uint32_t width, unsigned bits) {
+    for (uint32_t x = 0; x < width; x++)
+        numbers[x] = (uint8_t)(row[x * bits / 8] >> (8 - bits - x * bits % 8) & ((1u << bits) - 1));
 }
 
-/* ---- Colors by number ---- */
+static void unpack_row(const uint8_t *row, uint8_t *numbers, uint32_t width, unsigned bits) {
+    switch (bits) {
+    case 1: unpack(row, numbers, width, 1); break;
+    case 2: unpack(row, numbers, width, 2); break;
+    case 4: unpack(row, numbers, width, 4); break;
+    }
+}
 
 INLINE void look_up(const struct monge_picture *picture, const uint8_t *numbers, uint8_t *out, size_t step) {
     for (uint32_t x = 0; x < picture->width; x++)
         memcpy(out + x * step, picture->palette[numbers[x]], 4); /* what is too much is written over */
 }
 
-static void decode_indexed(struct monge_picture *picture) {
-    const size_t width = picture->width, stride = width * picture->channels;
-    uint8_t *numbers = decode_rows(picture, 1);
-    uint8_t *memory = numbers ? pages_alloc(stride * picture->height + sizeof *picture->palette) : NULL;
-    for (uint32_t y = 0; memory && y < picture->height; y++) {
-        const uint8_t *row = numbers + y * (width + 1) + 1;
-        if (picture->channels == 3)
-            look_up(picture, row, memory + y * stride, 3);
-        else
-            look_up(picture, row, memory + y * stride, 4);
+static void look_up_row(const struct monge_picture *picture, const uint8_t *numbers, uint8_t *out) {
+    switch (picture->channels) {
+    case 1: look_up(picture, numbers, out, 1); break;
+    case 2: look_up(picture, numbers, out, 2); break;
+    case 3: look_up(picture, numbers, out, 3); break;
+    case 4: look_up(picture, numbers, out, 4); break;
     }
-    free(numbers);
-    picture->memory = picture->rows = memory;
-    picture->stride = stride;
 }
 
-static void decode_plain(struct monge_picture *picture) {
-    const size_t step = picture_pixel_size(picture);
-    picture->memory = decode_rows(picture, step);
-    picture->rows = picture->memory ? picture->memory + 1 : NULL;
-    picture->stride = 1 + picture->width * step;
+INLINE void add_alpha(const struct monge_picture *picture, const uint8_t *row, uint8_t *out, size_t step,
+                      size_t bytes) {
+    for (uint32_t x = 0; x < picture->width; x++, row += step, out += step + bytes) {
+        memcpy(out, row, step);
+        memset(out + step, memcmp(row, picture->key, step) == 0 ? 0 : 255, bytes);
+    }
+}
+
+static void add_alpha_row(const struct monge_picture *picture, const uint8_t *row, uint8_t *out) {
+    if (picture->bits == 8)
+        add_alpha(picture, row, out, 3, 1);
+    else if (picture->channels == 2)
+        add_alpha(picture, row, out, 2, 2);
+    else
+        add_alpha(picture, row, out, 6, 2);
+}
+
+static void expand_row(const struct monge_picture *picture, const uint8_t *row, uint8_t *numbers,
+                       uint8_t *out) {
+    if (picture->number_bits < 8) {
+        unpack_row(row, numbers, picture->width, picture->number_bits);
+        row = numbers;
+    }
+    if (picture->indexed)
+        look_up_row(picture, row, out);
+    else
+        add_alpha_row(picture, row, out);
+}
+
+static void expand(struct monge_picture *picture, const uint8_t *rows, size_t stride) {
+    picture->stride = picture->width * picture_pixel_size(picture);
+    uint8_t *numbers = malloc(picture->width);
+    if (numbers) picture->memory = pages_alloc(picture->stride * picture->height + sizeof *picture->palette);
+    picture->rows = picture->memory;
+    for (uint32_t y = 0; picture->memory && y < picture->height; y++)
+        expand_row(picture, rows + y * stride + 1, numbers, picture->rows + y * picture->stride);
+    free(numbers);
+}
+
+/* ---- All of it ---- */
+
+/* Of a pixel in the file. */
+static size_t bits_of_pixel(const struct monge_picture *picture) {
+    return picture->number_bits * (picture->indexed ? 1 : picture->channels - picture->keyed);
 }
 
 void picture_decode_plain(struct monge_picture *picture) {
-    if (picture->plain) decode_plain(picture);
-    if (picture->indexed) decode_indexed(picture);
+    const size_t bits = bits_of_pixel(picture), stride = 1 + (picture->width * bits + 7) / 8;
+    if (picture->interlaced && bits < 8) return;
+    const size_t step = (bits + 7) / 8;
+    uint8_t *rows =
+        picture->interlaced ? decode_passes(picture, step) : decode_straight(picture, stride, step);
+    if (rows && (picture->indexed || picture->keyed)) {
+        expand(picture, rows, stride);
+        free(rows);
+    } else if (rows) {
+        picture->memory = rows;
+        picture->rows = rows + 1;
+        picture->stride = stride;
+    }
 }

@@ -83,6 +83,31 @@ static void all_neighbors_are_told_apart(void **state) {
                         .byte = neighbors));
 }
 
+static uint8_t key_8(size_t x, size_t y, size_t i) {
+    return (uint8_t)(10 + 10 * i + (x % 5 == i + 1) + (y % 7 == 6));
+}
+static uint8_t key_16(size_t x, size_t y, size_t i) { return i % 2 == 0 ? y % 7 == 6 : key_8(x, y, i / 2); }
+static uint8_t key_grey_8(size_t x, size_t y, size_t i) {
+    return (uint8_t)(x % 5 == 1 ? x : 1 + (y % 7 == 6) + i);
+}
+static uint8_t key_grey_16(size_t x, size_t y, size_t i) { return i == 0 ? x % 5 == 1 : key_grey_8(x, y, 0); }
+
+/* Pixels of the transparent colour, beside others that are not it in one channel alone. */
+static void one_color_is_transparent(void **state) {
+    (void)state;
+    static const struct {
+        int type, bits;
+        uint8_t (*byte)(size_t, size_t, size_t);
+    } kinds[] = {{PNG_COLOR_TYPE_RGB, 8, key_8},        {PNG_COLOR_TYPE_RGB, 16, key_16},
+                 {PNG_COLOR_TYPE_GRAY, 8, key_grey_8},  {PNG_COLOR_TYPE_GRAY, 16, key_grey_16},
+                 {PNG_COLOR_TYPE_GRAY, 4, sample_byte}, {PNG_COLOR_TYPE_GRAY, 2, sample_byte},
+                 {PNG_COLOR_TYPE_GRAY, 1, sample_byte}};
+    for (size_t k = 0; k < COUNT(kinds); k++)
+        for (int interlaced = 0; interlaced < 2; interlaced++)
+            check_sample(SAMPLE(43, 21, .type = kinds[k].type, .bits = kinds[k].bits, .byte = kinds[k].byte,
+                                .keyed = true, .interlaced = interlaced));
+}
+
 /* Interlaced: of small pictures some passes have no pixels, and of others each has one more or less. */
 static void passes_are_put_together(void **state) {
     (void)state;
@@ -380,6 +405,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(all_kinds_are_read, enter_folder, leave_folder),
         cmocka_unit_test_setup_teardown(all_filters_are_undone, enter_folder, leave_folder),
         cmocka_unit_test_setup_teardown(all_neighbors_are_told_apart, enter_folder, leave_folder),
+        cmocka_unit_test_setup_teardown(one_color_is_transparent, enter_folder, leave_folder),
         cmocka_unit_test_setup_teardown(passes_are_put_together, enter_folder, leave_folder),
         cmocka_unit_test_setup_teardown(pixels_may_be_in_many_chunks, enter_folder, leave_folder),
         cmocka_unit_test_setup_teardown(texts_are_found, enter_folder, leave_folder),
