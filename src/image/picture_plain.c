@@ -106,7 +106,7 @@ static uint8_t *decode_passes(const struct monge_picture *picture, size_t step) 
 
 INLINE void unpack(const uint8_t *row, uint8_t *numbers, uint32_t width, unsigned bits) {
     for (uint32_t x = 0; x < width; x++)
-        numbers[x] = (uint8_t)(row[x * bits / 8] >> (8 - bits - x * bits % 8) & ((1u << bits) - 1));
+        numbers[x] = (uint8_t)((unsigned)row[x * bits / 8] >> (8 - bits - x * bits % 8) & ((1u << bits) - 1));
 }
 
 static void unpack_row(const uint8_t *row, uint8_t *numbers, uint32_t width, unsigned bits) {
