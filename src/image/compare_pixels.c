@@ -11,6 +11,7 @@
 
 enum {
     BLOCK = 32,              /* pixels that are looked at together */
+    PIECE = 16 * BLOCK,      /* pixels of a row that are read together */
     BLOCK_BYTES = BLOCK * 4, /* of 8 bits; at most */
     BAND = 16                /* rows that a thread takes at a time */
 };
@@ -20,31 +21,16 @@ enum {
 struct layout {
     unsigned colors, channels; /* colors: 1 or 3; channels: with alpha */
     unsigned bits;
-    bool same; /* that is how they are */
 };
 
 static struct layout common_layout(const struct monge_picture *a, const struct monge_picture *b) {
     const bool color = a->channels >= 3 || b->channels >= 3;
     const bool alpha = a->channels % 2 == 0 || b->channels % 2 == 0;
     const unsigned colors = color || alpha ? 3 : 1, bits = a->bits > b->bits ? a->bits : b->bits;
-    return (struct layout){colors, colors + alpha, bits,
-                           a->bits == bits && b->bits == bits && a->channels == colors + alpha &&
-                               b->channels == colors + alpha};
+    return (struct layout){colors, colors + alpha, bits};
 }
 
 static unsigned max_code(const struct layout *layout) { return (1u << layout->bits) - 1; }
-
-/* A pixel in that layout; 8 bits become 16 by v * 257, which keeps 0 and 1. */
-static void read_pixel(const struct monge_picture *picture, const uint8_t *at, const struct layout *layout,
-                       uint16_t *out) {
-    const unsigned colors = picture->channels >= 3 ? 3 : 1, bits = picture->bits, bytes = bits / 8;
-    const unsigned scale = layout->bits > bits ? 257 : 1;
-    const bool alpha = picture->channels > colors;
-    for (unsigned c = 0; c < layout->colors; c++)
-        *out++ = (uint16_t)(scale * picture_number(at + (c < colors ? c * bytes : 0), bits));
-    if (layout->channels > layout->colors)
-        *out = (uint16_t)(alpha ? scale * picture_number(at + colors * bytes, bits) : max_code(layout));
-}
 
 /* What a thread has found. */
 struct tally {
@@ -173,66 +159,111 @@ INLINE void count_block(const struct job *job, struct tally *t, uint32_t begin, 
     t->squares += sum_squares(block.difference, size);
 }
 
+/* ---- Pixels of other kinds, as the layout has them ---- */
+
+/* With `to` channels instead of `from`. */
+INLINE void add_channels(const uint8_t *in, uint8_t *out, size_t count, size_t from, size_t to,
+                         size_t bytes) {
+    for (size_t i = 0; i < count; i++, in += from * bytes)
+        for (size_t c = 0; c < to; c++, out += bytes) {
+            const size_t channel = c == 3 ? from - 1 : from >= 3 ? c : 0;
+            if (c == 3 && from % 2 == 1)
+                memset(out, 255, bytes); /* opaque */
+            else
+                memcpy(out, in + channel * bytes, bytes);
+        }
+}
+
+INLINE void add_channels_of(const uint8_t *in, uint8_t *out, size_t count, size_t from, size_t to,
+                            size_t bytes) {
+    if (from == 1 && to == 3)
+        add_channels(in, out, count, 1, 3, bytes);
+    else if (from == 1)
+        add_channels(in, out, count, 1, 4, bytes);
+    else if (from == 2)
+        add_channels(in, out, count, 2, 4, bytes);
+    else
+        add_channels(in, out, count, 3, 4, bytes);
+}
+
+/* 8 bits become 16 by v * 257, which keeps 0 and 1: both bytes are v. */
+INLINE void add_bits(const uint8_t *in, uint8_t *out, size_t count) {
+    for (size_t i = 0; i < count; i++) out[2 * i] = out[2 * i + 1] = in[i];
+}
+
+/* Room for a piece of a row. */
+struct piece {
+    uint8_t channels[PIECE * 8], bits[PIECE * 8];
+};
+
+/* At most PIECE pixels: those of the picture, or others in `room`. */
+INLINE const uint8_t *lay_out(const struct monge_picture *picture, const uint8_t *at, size_t count,
+                              const struct layout *layout, struct piece *room) {
+    if (picture->channels != layout->channels) {
+        if (picture->bits == 8)
+            add_channels_of(at, room->channels, count, picture->channels, layout->channels, 1);
+        else
+            add_channels_of(at, room->channels, count, picture->channels, layout->channels, 2);
+        at = room->channels;
+    }
+    if (picture->bits == layout->bits) return at;
+    add_bits(at, room->bits, count * layout->channels);
+    return room->bits;
+}
+
 /* ---- Rows ---- */
 
-/* A row of pictures of one layout: most of the pixels are equal, byte by byte. channels and bits are known to the
- * compiler, for those that are common. */
-INLINE void count_alike(const struct job *job, struct tally *t, uint32_t y, unsigned channels,
-                        unsigned bits) {
-    const uint32_t width = job->comparison->a->width;
+/* Pixels from column `begin` on, of which most are equal, byte by byte. channels and bits are known to the compiler, for those
+ * that are common. */
+INLINE void count_pixels(const struct job *job, struct tally *t, uint32_t begin, uint32_t y, uint32_t count,
+                         const uint8_t *a, const uint8_t *b, unsigned channels, unsigned bits) {
     const size_t bytes = bits / 8, size = channels * bytes;
-    const uint8_t *a = picture_row(job->comparison->a, y), *b = picture_row(job->comparison->b, y);
     const uint8_t *ignored = comparison_ignored(job->comparison, y);
-    for (uint32_t begin = 0; begin < width; begin += BLOCK) {
-        const uint32_t end = width - begin < BLOCK ? width : begin + BLOCK;
-        if (memcmp(a + begin * size, b + begin * size, (end - begin) * size) == 0) continue;
-        if (bits == 8 && end - begin == BLOCK) {
-            count_block(job, t, begin, y, a + begin * size, b + begin * size,
-                        ignored ? ignored + begin : NULL, channels);
+    for (uint32_t i = 0; i < count; i += BLOCK) {
+        const uint32_t end = count - i < BLOCK ? count : i + BLOCK;
+        if (memcmp(a + i * size, b + i * size, (end - i) * size) == 0) continue;
+        if (bits == 8 && end - i == BLOCK) {
+            count_block(job, t, begin + i, y, a + i * size, b + i * size,
+                        ignored ? ignored + begin + i : NULL, channels);
             continue;
         }
-        for (uint32_t x = begin; x < end; x++) {
+        for (uint32_t x = i; x < end; x++) {
             const uint8_t *at_a = a + x * size, *at_b = b + x * size;
             uint16_t of_a[4], of_b[4];
-            if (memcmp(at_a, at_b, size) == 0 || (ignored && ignored[x])) continue;
+            if (memcmp(at_a, at_b, size) == 0 || (ignored && ignored[begin + x])) continue;
             for (unsigned c = 0; c < channels; c++) {
                 of_a[c] = (uint16_t)picture_number(at_a + c * bytes, bits);
                 of_b[c] = (uint16_t)picture_number(at_b + c * bytes, bits);
             }
-            count_numbers(job, t, x, y, of_a, of_b, channels);
+            count_numbers(job, t, begin + x, y, of_a, of_b, channels);
         }
     }
 }
 
-/* A row of any others. */
-static void count_unlike(const struct job *job, struct tally *t, uint32_t y) {
-    const struct monge_picture *a = job->comparison->a, *b = job->comparison->b;
-    const uint8_t *ignored = comparison_ignored(job->comparison, y);
-    const size_t size_a = picture_pixel_size(a), size_b = picture_pixel_size(b);
-    const bool same_kind = a->bits == b->bits && a->channels == b->channels;
-    const uint8_t *at_a = picture_row(a, y), *at_b = picture_row(b, y);
-    if (same_kind && memcmp(at_a, at_b, a->width * size_a) == 0) return;
-    for (uint32_t x = 0; x < a->width; x++, at_a += size_a, at_b += size_b) {
-        uint16_t of_a[4], of_b[4];
-        if ((ignored && ignored[x]) || (same_kind && memcmp(at_a, at_b, size_a) == 0)) continue;
-        read_pixel(a, at_a, &job->layout, of_a);
-        read_pixel(b, at_b, &job->layout, of_b);
-        count_numbers(job, t, x, y, of_a, of_b, job->layout.channels);
-    }
+INLINE void count_piece(const struct job *job, struct tally *t, uint32_t begin, uint32_t y, uint32_t count,
+                        const uint8_t *a, const uint8_t *b) {
+    const unsigned channels = job->layout.channels, bits = job->layout.bits;
+    if (bits == 8 && channels == 3)
+        count_pixels(job, t, begin, y, count, a, b, 3, 8);
+    else if (bits == 8 && channels == 4)
+        count_pixels(job, t, begin, y, count, a, b, 4, 8);
+    else if (bits == 16 && channels == 3)
+        count_pixels(job, t, begin, y, count, a, b, 3, 16);
+    else
+        count_pixels(job, t, begin, y, count, a, b, channels, bits);
 }
 
 INLINE void count_row(const struct job *job, struct tally *t, uint32_t y) {
-    const unsigned channels = job->layout.channels, bits = job->layout.bits;
-    if (!job->layout.same)
-        count_unlike(job, t, y);
-    else if (bits == 8 && channels == 3)
-        count_alike(job, t, y, 3, 8);
-    else if (bits == 8 && channels == 4)
-        count_alike(job, t, y, 4, 8);
-    else if (bits == 16 && channels == 3)
-        count_alike(job, t, y, 3, 16);
-    else
-        count_alike(job, t, y, channels, bits);
+    const struct monge_picture *a = job->comparison->a, *b = job->comparison->b;
+    const size_t size_a = picture_pixel_size(a), size_b = picture_pixel_size(b);
+    struct piece room_a, room_b;
+    for (uint32_t x = 0; x < a->width; x += PIECE) {
+        const uint32_t count = a->width - x < PIECE ? a->width - x : PIECE;
+        const uint8_t *at_a = picture_row(a, y) + x * size_a, *at_b = picture_row(b, y) + x * size_b;
+        if (size_a == size_b && memcmp(at_a, at_b, count * size_a) == 0 && a->bits == b->bits) continue;
+        count_piece(job, t, x, y, count, lay_out(a, at_a, count, &job->layout, &room_a),
+                    lay_out(b, at_b, count, &job->layout, &room_b));
+    }
 }
 
 INLINE void count_bands(void *context, unsigned thread) {
@@ -303,13 +334,19 @@ void compare_row(const struct comparison *comparison, uint32_t y, float *largest
     const struct monge_picture *a = comparison->a, *b = comparison->b;
     const struct layout layout = common_layout(a, b);
     const uint8_t *ignored = comparison_ignored(comparison, y);
+    const size_t bytes = layout.bits / 8;
+    struct piece room_a, room_b;
     for (uint32_t x = 0; x < a->width; x++) {
-        uint16_t of_a[4], of_b[4];
+        const uint8_t *at_a = picture_row(a, y) + x * picture_pixel_size(a),
+                      *at_b = picture_row(b, y) + x * picture_pixel_size(b);
         int worst = 0;
-        read_pixel(a, picture_row(a, y) + x * picture_pixel_size(a), &layout, of_a);
-        read_pixel(b, picture_row(b, y) + x * picture_pixel_size(b), &layout, of_b);
-        for (unsigned c = 0; c < layout.channels; c++)
-            if (abs(of_a[c] - of_b[c]) > worst) worst = abs(of_a[c] - of_b[c]);
+        at_a = lay_out(a, at_a, 1, &layout, &room_a);
+        at_b = lay_out(b, at_b, 1, &layout, &room_b);
+        for (size_t c = 0; c < layout.channels; c++) {
+            const int difference = abs((int)picture_number(at_a + c * bytes, layout.bits) -
+                                       (int)picture_number(at_b + c * bytes, layout.bits));
+            if (difference > worst) worst = difference;
+        }
         largest[x] = ignored && ignored[x] ? 0.0f : (float)worst / (float)max_code(&layout);
     }
 }
