@@ -372,7 +372,7 @@ ok 'the lines that are left' [ "$(grep -o '^[^# ]*' g/golden.lock | tr '\n' ,)" 
 printf 'rules: [{scenes: turn, options: --frames all}]\n' >g/golden.yaml
 printf 'image: {size: [20, 10], samples: 1}\nanimation: {frames: 3}\nscene: [{sphere: {}}]\n' >s/turn.yaml
 cp s/one.yaml s/turn-0002.yaml
-exits 2 test s --golden g -q; err_has 's/turn.yaml and s/turn-0002.yaml have the same golden, turn-0002'
+exits 2 test s --golden g -q; err_has 's/turn.yaml and s/turn-0002.yaml would both write turn-0002.png: rename one of them'
 
 # ---- Orphans are told by runs of folders alone, and not of scenes that are there ----
 
@@ -433,6 +433,25 @@ exits 2 test s --golden g --root none; err_has '--root none: No such file or dir
 : | "$monge" test @- --golden g --root s >out 2>err; status=$?; last='test @-'; ok 'an empty list' [ $status -eq 0 ]
 err_has 'the list is empty: nothing to test'; out_has '0 goldens'
 fresh; scene other/one.yaml red; exits 2 test s other --golden g; err_has 's/one.yaml and other/one.yaml would have the same golden, one: give --root, or golden.yaml a `root`'; rm -r other
+# no root tells extensions apart
+fresh; cp s/one.yaml s/one.yml
+for root in '' --root=s; do
+    exits 2 test s --golden g $root; ok 'a name is what helps' [ "$(cat err)" = 'monge: s/one.yaml and s/one.yml would have the same golden, one: rename one of them' ]
+done
+# files of two scenes: a pass that is called as a picture, and a folder that is
+shared() { exits 2 test s --golden g; ok 'a line' [ "$(cat err)" = "monge: $1: rename one of them" ]; no_out; missing monge-test; }
+fresh 'rules: [{scenes: one, aov: true}]'; cp s/one.yaml s/one.object.yaml; cp s/one.yaml s/one.depth.yaml
+shared 's/one.yaml and s/one.object.yaml would both write one.object.png'
+mv s/one.object.yaml s/one.objects.yaml; exits 1 test s --golden g -q; no_err # nor is depth a PNG
+fresh 'rules: [{scenes: one, aov: true, options: "-D a=1,2"}]'; sed -i '1i params: {a: 1}' s/one.yaml; cp s/one.yaml s/one-a=2.normal.yaml
+shared 's/one.yaml and s/one-a=2.normal.yaml would both write one-a=2.normal.png'
+fresh; mkdir s/one.png; cp s/two.yaml s/one.png/x.yaml; cp s/two.yaml 's/one.png!.yaml'
+shared 's/one.yaml writes one.png, which is a folder of what s/one.png/x.yaml writes, one.png/x.png'
+fresh 'rules: [{scenes: one, aov: true, options: --frames all}]'; sed -i '1i animation: {frames: 2}' s/one.yaml
+cp s/two.yaml s/one.object.yaml; exits 1 test s --golden g -q; no_err # the frames have other names
+cp s/two.yaml s/one-0001.object.yaml; sums g >before
+exits 2 test s --golden g -q --update-only-failed; err_has 's/one.yaml and s/one-0001.object.yaml would both write one-0001.object.png: rename one of them'
+ok 'nothing is taken' [ "$(sums g)" = "$(cat before)" ]
 fresh; exits 1 test 's/**/*.yaml' --golden g; says new one; says new 'in/a b%'
 
 # ---- Tolerances ----

@@ -8,6 +8,7 @@
 
 #include "cli/batch.h"
 #include "cli/clock.h"
+#include "cli/golden/claims.h"
 #include "cli/golden/files.h"
 #include "cli/golden/folder.h"
 #include "cli/golden/orphans.h"
@@ -18,7 +19,9 @@
 #include "cli/golden/tell.h"
 #include "cli/interrupt.h"
 #include "cli/paths.h"
+#include "cli/pattern.h"
 #include "cli/say.h"
+#include "cli/scene_path.h"
 #include "cli/words.h"
 
 /* A run, what has become of it, and how it is told. */
@@ -71,6 +74,18 @@ static int compare_scenes(const void *a, const void *b) {
     return order ? order : p < q ? -1 : p > q;
 }
 
+/* Only an extension tells a.yaml from a.yml, and no root has that in the name. */
+static void say_same_name(const struct golden_scene *a, const struct golden_scene *b) {
+    char *place = scene_place(a->path), *other = scene_place(b->path);
+    char *name = scene_name(place ? place : a->path), *other_name = scene_name(other ? other : b->path);
+    say_error("%s and %s would have the same golden, %s: %s", a->path, b->path, a->name,
+              strcmp(name, other_name) == 0 ? "rename one of them" : "give --root, or golden.yaml a `root`");
+    free(other_name);
+    free(name);
+    free(other);
+    free(place);
+}
+
 /* A scene that is named twice counts once; two scenes of one name are wrong. */
 static bool check_scenes(struct golden_run *run) {
     struct golden_scene **sorted = calloc(run->count + 1, sizeof *sorted);
@@ -82,9 +97,7 @@ static bool check_scenes(struct golden_run *run) {
         if (strcmp(sorted[i - 1]->name, sorted[i]->name) != 0) continue;
         good = strcmp(sorted[i - 1]->path, sorted[i]->path) == 0 ||
                path_is_same(sorted[i - 1]->path, sorted[i]->path);
-        if (!good)
-            say_error("%s and %s would have the same golden, %s: give --root, or golden.yaml a `root`",
-                      sorted[i - 1]->path, sorted[i]->path, sorted[i]->name);
+        if (!good) say_same_name(sorted[i - 1], sorted[i]);
         sorted[i]->path = sorted[i - 1]->path;
         sorted[i - 1]->path = NULL;
     }
@@ -98,6 +111,31 @@ static bool check_scenes(struct golden_run *run) {
             free(run->scenes[i].name);
     run->count = kept;
     return true;
+}
+
+/* Before frames are known, of which there may be none. */
+static void claim_scene(struct golden_claims *claims, const struct golden_scene *scene) {
+    const struct sweep *sweep = &scene->rule->loader.sweep;
+    struct monge_define *defines = calloc(sweep->count + 1, sizeof *defines);
+    if (!defines) say_no_memory();
+    for (size_t i = 0; i < sweep->total; i++) {
+        sweep_combination(sweep, i, defines);
+        const struct pattern_values values = {
+            .name = scene->name, .defines = defines, .define_count = sweep->count};
+        char *name = pattern_usual(sweep, &values);
+        golden_claims_add(claims, name, scene->rule->rule->aov, scene->path);
+        free(name);
+    }
+    free(defines);
+}
+
+static bool check_files(const struct golden_run *run) {
+    struct golden_claims claims = {0};
+    for (size_t i = 0; i < run->count; i++)
+        if (!run->scenes[i].rule->args.option[OPTION_FRAMES].given) claim_scene(&claims, &run->scenes[i]);
+    const bool good = golden_claims_check(&claims);
+    golden_claims_free(&claims);
+    return good;
 }
 
 static void say_unread(const struct golden_run *run, const char *path) {
@@ -125,7 +163,7 @@ static bool name_scenes(struct golden_run *run) {
             say_error("%s: it is not below `root`, %s", found->all[i].path, run->settings.root);
         run->loader.scenes.status = STATUS_TROUBLE;
     }
-    return run->scenes && check_scenes(run);
+    return run->scenes && check_scenes(run) && check_files(run);
 }
 
 /* Whether the operands may tell all scenes: each is a folder, and was read. */
@@ -232,27 +270,14 @@ static bool gather(struct test *test) {
     return cases;
 }
 
-static int compare_cases(const void *a, const void *b) {
-    const struct golden_case *p = *(const struct golden_case *const *)a,
-                             *q = *(const struct golden_case *const *)b;
-    const int order = strcmp(p->name, q->name);
-    return order ? order : p < q ? -1 : p > q;
-}
-
-/* Names that frames and parameters make may be those of other scenes. */
+/* With frames, of which the scenes alone know how many there are. */
 static bool check_names(const struct golden_case *cases, size_t count) {
-    const struct golden_case **sorted = calloc(count + 1, sizeof *sorted);
-    bool good = sorted != NULL;
-    if (!good) say_error("out of memory");
-    for (size_t i = 0; good && i < count; i++) sorted[i] = &cases[i];
-    if (good && count > 1) qsort(sorted, count, sizeof *sorted, compare_cases);
-    for (size_t i = 1; good && i < count; i++) {
-        good = strcmp(sorted[i - 1]->name, sorted[i]->name) != 0;
-        if (!good)
-            say_error("%s and %s have the same golden, %s", sorted[i - 1]->scene, sorted[i]->scene,
-                      sorted[i]->name);
-    }
-    free(sorted);
+    struct golden_claims claims = {0};
+    for (size_t i = 0; i < count; i++)
+        golden_claims_add(&claims, cases[i].name, cases[i].aov && cases[i].status != GOLDEN_BROKEN,
+                          cases[i].scene);
+    const bool good = golden_claims_check(&claims);
+    golden_claims_free(&claims);
     return good;
 }
 
