@@ -1151,6 +1151,16 @@ if [ "$(id -u)" -ne 0 ]; then
     exits 2 test s --golden g --output sealed/run; err_has 'cannot make the folder sealed/run'
     chmod 700 sealed
 fi
+# a reader that goes away is output that fails, and no more than that
+fresh; exits 1 test s --golden g -q; exits 0 accept one --golden g -q; scene s/one.yaml lime
+for command in "test s" "test s --tap" "test s --json -"; do
+    rm -rf monge-test; unread $command --golden g --junit z.xml --report r; ok 'it is output that fails' [ "$status" -eq 2 ]
+    ok 'the run is whole' grep -q '"new": 2' monge-test/results.json; there monge-test/new/one.png z.xml r/index.html; rm -r z.xml r
+done
+rm gone; { await '[ -e gone ]'; "$monge" test s --golden g 2>err; } | { exec <&-; : >gone; }; ok 'that is told' [ "$(cat err)" = 'monge: cannot write standard output: Broken pipe' ]
+unread test s --golden g --update-only-failed; exits 0 test s --golden g -q
+scene s/one.yaml blue; scene s/two.yaml lime; exits 1 test s --golden g -q; scene s/one.yaml red # it says so before it writes the lock
+unread accept --golden g; ok 'of accept, too' [ "$status" -eq 2 ]; exits 0 test s/two.yaml --golden g -q
 last='test with a full disk'
 rm -rf monge-test
 (trap '' XFSZ; ulimit -f 0; "$monge" test s --golden g -q 2>err | cat >out; exit "${PIPESTATUS[0]}"); status=$?

@@ -348,6 +348,7 @@ static bool begin(struct acceptance *a) {
 
 enum status accept_command(const struct arguments *args) {
     struct acceptance a = {.args = args};
+    streams_outlive_readers();
     const enum status status = begin(&a) ? settle(&a) : STATUS_TROUBLE;
     free(a.scenes);
     free(a.sealed);

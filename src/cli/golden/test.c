@@ -502,6 +502,7 @@ static void end(struct test *test) {
 
 enum status test_command(const struct arguments *args) {
     struct test test = {.args = *args, .begun = clock_seconds()};
+    streams_outlive_readers();
     const bool begun = begin(&test, args); /* here a signal may still end the program at once */
     interrupt_defer();
     const enum status status = begun ? run_test(&test) : STATUS_TROUBLE;
