@@ -769,6 +769,15 @@ PYTHON
 fi
 exits 0 accept one --golden g; exits 0 test s/one.yaml --golden g --changed --junit junit.xml --tap
 out_has '# SKIP unchanged'; ok 'JUnit skips' grep -q '<skipped' junit.xml
+# what is taken passes, and says so; what cannot be does not
+fresh; exits 1 test s --golden g -q; exits 0 accept two --golden g -q; scene s/two.yaml lime; mkdir away; ln -s ../away g/in
+exits 2 test s --golden g --update-only-failed --tap --junit junit.xml; cp out tap
+ok 'taken' [ "$(grep -A 1 '^ok' tap | cut -d ' ' -f 1,4- | tr '\n' '|')" = 'ok one|# taken: the new picture is its golden now|ok two|# taken: the new picture is its golden now|' ]
+ok 'each as what it was' [ "$(grep '^# .*, and taken' tap | cut -c 3-9)" = $'new, an\nchanged' ]; ok 'left' grep -qx 'not ok 1 - in/a b%' tap
+ok 'the counts of JUnit' grep -q 'tests="3" failures="1" errors="0"' junit.xml; ok 'what fails there' [ "$(grep -c '<failure' junit.xml)" -eq 1 ]
+ok 'JUnit says so' [ "$(grep -o '<system-out>.*<' junit.xml | tr '\n' '|')" = '<system-out>new, and taken: the new picture is its golden now<|<system-out>changed, and taken: the new picture is its golden now<|' ]
+rm -r g/in away; exits 1 test s --golden g --tap; ok 'they are' [ "$(grep -c '^ok' out)" -eq 2 ]
+scene s/one.yaml lime; exits 0 test s --golden g --update-only-failed -q; ok 'quietly, too' [ "$(grep -c '^ *taken: the new picture is its golden now$' out)" -eq 2 ]
 
 fresh; printf 'animation: {frames: 2}\nimage: {size: [400, 300]}\nscene: [{sphere: {}}]\n' >s/two.yaml; printf 'scene: [{spere: {}}]\n' >s/in/wrong.yaml
 printf 'rules: [{scenes: two, options: --frames all}]\n' >g/golden.yaml
@@ -998,7 +1007,7 @@ ok 'a parameter that is set twice, once' [ "$(cat err)" = 'monge: warning[given-
 # quietly only what is wrong is told, and a document that was asked for
 fresh; exits 0 test s --golden g --update-only-failed; out_has '3 of 3 new pictures are goldens now'
 scene s/one.yaml lime; exits 1 test s --golden g -q; cp out x; says changed one; ok 'no line of what is the same' sh -c '! grep -q ^same out'; out_lacks goldens; no_err
-exits 0 test s --golden g --update-only-failed -q; sed 's/^ *new: .*//' out >y; says changed one; out_lacks goldens
+exits 0 test s --golden g --update-only-failed -q; sed 's/^ *new: .*//; /^ *taken: the new picture is its golden now$/d' out >y; out_has '  taken: the'; says changed one; out_lacks goldens
 ok 'what has failed is told in the same lines' [ "$(sed 's/^ *new: .*//' x)" = "$(cat y)" ]
 exits 0 test s --golden g -q; no_out; no_err; exits 0 test s --golden g --changed -q; no_out; no_err
 exits 0 test s --golden g -q --tap; out_has '# 3 goldens: 3 same'; exits 0 test s --golden g -q --json -; out_has '"same": 3'

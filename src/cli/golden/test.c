@@ -229,14 +229,19 @@ static bool run_scene(void *context, size_t index) {
     return true;
 }
 
+/* Whether it is told at the end alone: what is new, or when it is known whether it is taken. */
+static bool is_held(const struct test *test, const struct golden_case *c) {
+    return (test->holds_new && c->status == GOLDEN_NEW) ||
+           (wants(test, OPTION_UPDATE_ONLY_FAILED) && golden_can_take(c));
+}
+
 static void end_scene(void *context, size_t index, const char *said) {
     struct test *test = context;
     const struct golden_scene *scene = &test->run.scenes[index];
     progress_hide(&test->run.progress);
     fputs(said, stderr);
     for (size_t i = 0; i < scene->count; i++)
-        if (!test->holds_new || scene->cases[i].status != GOLDEN_NEW)
-            golden_tell(&test->teller, &scene->cases[i]);
+        if (!is_held(test, &scene->cases[i])) golden_tell(&test->teller, &scene->cases[i]);
 }
 
 /* Whether there are goldens of which the run may find out that they are orphans. */
@@ -248,11 +253,11 @@ static bool may_find_orphans(const struct test *test) {
     return any;
 }
 
-/* What the run has not told: what is new, if that is held, and orphans. */
+/* What the run has not told: what is held, and orphans. */
 static void tell_rest(struct test *test, size_t first_orphan) {
     const struct golden_results *results = &test->results;
-    for (size_t i = test->holds_new ? 0 : first_orphan; i < results->count; i++)
-        if (i >= first_orphan || results->cases[i].status == GOLDEN_NEW)
+    for (size_t i = 0; i < results->count; i++)
+        if (i >= first_orphan || is_held(test, &results->cases[i]))
             golden_tell(&test->teller, &results->cases[i]);
 }
 
@@ -286,22 +291,30 @@ static bool take_new(struct test *test) {
     golden_hold(run->folder); /* others may have written the lock during the run */
     golden_lock_free(&run->lock);
     if (!golden_lock_read(&run->lock, run->folder)) return false;
-    size_t taken = 0, wanted = 0;
+    size_t taken = 0;
     bool good = true;
     for (size_t i = 0; i < test->results.count; i++) {
         struct golden_case *c = &test->results.cases[i];
         if (!golden_can_take(c)) continue;
-        wanted++;
         if (golden_is_as_noted(run->folder, &run->lock, c))
             good &= c->taken = golden_take(run->folder, &run->lock, c);
         else
             say_error("%s is left as it is: its golden has changed during the run", c->name);
         taken += c->taken;
     }
-    if (taken > 0 && !golden_lock_write(&run->lock)) return false;
-    if (wanted > 0 && !test->teller.tap && !test->teller.quiet)
-        fprintf(test->teller.out, "%zu of %zu new pictures are goldens now\n", taken, wanted);
-    return good;
+    if (taken == 0 || golden_lock_write(&run->lock)) return good;
+    for (size_t i = 0; i < test->results.count; i++)
+        test->results.cases[i].taken &= test->results.cases[i].kind == MONGE_GOLDEN_PNG;
+    return false;
+}
+
+static void mention_taken(const struct test *test) {
+    size_t taken = 0, wanted = 0;
+    for (size_t i = 0; i < test->results.count; i++) {
+        wanted += golden_can_take(&test->results.cases[i]);
+        taken += test->results.cases[i].taken;
+    }
+    if (wanted > 0) fprintf(test->teller.out, "%zu of %zu new pictures are goldens now\n", taken, wanted);
 }
 
 /* ---- What it comes to ---- */
@@ -407,14 +420,17 @@ static enum status run_test(struct test *test) {
     if (all) find_places(test);
     const bool whole = all && golden_looks_for_orphans(run, &test->results);
     if (whole) golden_find_orphans(run, &test->results);
+    const bool named = check_names(test->results.cases, first_orphan),
+               takes = named && all && wants(test, OPTION_UPDATE_ONLY_FAILED);
+    bool good = !takes || take_new(test);
     tell_rest(test, first_orphan);
     test->results.seconds = clock_seconds() - test->begun;
     golden_tell_end(&test->teller, &test->results);
     if (whole && test->results.elsewhere == 0) golden_warn_of_unused(run);
-    if (!check_names(test->results.cases, first_orphan)) return STATUS_TROUBLE;
-    bool good = !all || !wants(test, OPTION_UPDATE_ONLY_FAILED) || take_new(test);
+    if (!named) return STATUS_TROUBLE;
     good &= golden_files_write(&test->results, run->output, test->args.option);
     if (!test->teller.tap && !test->teller.quiet) {
+        if (takes) mention_taken(test);
         mention_pictures(test);
         mention_passes(test);
         mention_elsewhere(test);
