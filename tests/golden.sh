@@ -299,6 +299,14 @@ fresh; : >g/golden.yaml; exits 1 test s --golden g; no_err; exits 0 accept --gol
 for other in '-' '- # a' '--' 'a' '# a'$'\n''a'; do fresh "$other"; exits 2 test s --golden g; err_has 'g/golden.yaml:'; done
 fresh 'root: ../nowhere'; exits 2 test s --golden g; err_has '`root`: g/../nowhere: No such file'
 fresh 'rules: [{scenes: one, options: --frames 2}]'; exits 1 test s --golden g; says broken one; out_has 'has no animation'
+# its command shows what is wrong, too
+for options in '--frames 2 --size 20x15' '--size 20x15 --frames 2-3' '--size 20x15 --frames 1-4:2'; do
+    fresh "rules: [{scenes: one, options: $options}]"; exits 1 test s --golden g; says broken one; frames=${options#*--frames }
+    out_has "again: monge render s/one.yaml --size 20x15 --frames ${frames% --*} -o 'one-{frame}.png'"
+    sed -n '/^broken/,/^new/s/^ *again: //p' out >command; sed -i "s,^monge,'$monge'," command; sh ./command >out 2>err; status=$?
+    ok 'it is what it shows' [ "$status" -eq 2 ]; err_has 'has no animation'
+done
+fresh 'rules: [{scenes: one, options: --frames 2}]'; echo 'scene: [{sphre: {}}]' >s/one.yaml; exits 1 test s --golden g; out_has "s/one.yaml --frames 2 -o 'one-{frame}.png'"
 fresh 'rules: [{scenes: one, options: --frames all}]'; exits 1 test s --golden g; says new one; out_has 'monge render s/one.yaml -o one.png'
 fresh 'rules: [{scenes: one, options: "--region 0,0,99,99"}]'; exits 1 test s --golden g; says broken one; out_has 'does not lie within'
 
@@ -936,7 +944,7 @@ for option in json junit; do
     refuses() { exits 2 test s --golden g --$option "$1"; ok 'a line' [ "$(cat err)" = "monge: --$option $1$2" ]; no_out; missing monge-test; }
     for file in g/golden.yaml g/one.png g/golden.lock g/new.json soft; do refuses $file ' would write into the folder of the goldens, g'; done
     refuses hard ' would write over a scene of the run'; refuses s/two.yaml ' would write over a scene of the run'
-    for file in more.yml s/none.YAML x.png x.lock; do refuses $file ': it is called as scenes or goldens are, and would be none'; done
+    for file in more.yml s/none.YAML x.png x.lock; do refuses $file ': the name ends as those of scenes and goldens do: choose another'; done
 done
 exits 2 test s --golden g --json j --junit ./j; err_has '--json and --junit would write the same file, ./j'; missing j
 exits 2 test s --golden g --junit monge-test/results.json; err_has '--output and --junit would write the same file'
@@ -1000,6 +1008,16 @@ if [ "$(id -u)" -ne 0 ]; then
 else
     left_out 'folders that cannot be written: root can'
 fi
+# what may not be read is told as that: by another user, where this one is root
+fresh 'root: ../s'; cp "$monge" any; chmod 755 "$work"; chmod 0 g; last='test with goldens that may not be read'
+as=(); [ "$(id -u)" -ne 0 ] || as=(setpriv --reuid=65534 --clear-groups)
+if "${as[@]}" ./any help >out 2>&1; then
+    "${as[@]}" ./any test --golden g >out 2>err; ok 'exit 2' [ $? -eq 2 ]
+    ok 'the reason' [ "$(cat err)" = 'monge: cannot read g/golden.yaml: Permission denied' ]
+else
+    left_out 'goldens that may not be read: root can'
+fi
+chmod 755 g; rm any
 # of an option that counts for nothing, with its place
 fresh 'rules:' '  - {scenes: one, options: "-D a=1 -D a=2"}'; sed -i '1i params: {a: 1}' s/one.yaml
 exits 1 test s --golden g
@@ -1152,7 +1170,14 @@ exits 1 accept --golden g; err_has 'one is left as it is: its new picture cannot
 exits 1 test s --golden g -q
 sed "s/\"program\": \"[0-9a-f]*\", \"size\"/\"program\": \"$hash\", \"size\"/" monge-test/results.json >x; cp x monge-test/results.json
 rm -rf g; mkdir g; exits 1 accept --golden g; err_has 'the program has changed since the run'; ok 'nothing is taken' [ -z "$(ls g)" ]
-echo keep >file; exits 2 test s --golden g --output file; err_has 'file'; ok 'a file is no folder' [ "$(cat file)" = keep ]
+echo keep >file; for path in file file/ file/x/y; do
+    for option in output report; do exits 2 test s --golden g --$option $path; ok "a file for --$option" [ "$(cat err)" = "monge: --$option $path: file is no folder" ]; no_out; done
+    exits 2 accept --golden g --output $path; ok 'of accept' [ "$(cat err)" = "monge: --output $path: file is no folder" ]
+    exits 1 test s --golden g -q --report none/$path; rm -r none
+done
+exits 2 test s --golden g --json s; ok 'a folder for a file' [ "$(cat err)" = 'monge: --json s: it is a folder' ]
+exits 2 test s --golden .; ok 'where nobody said where' [ "$(cat err)" = 'monge: the run would write into the folder of the goldens, ., as its own is monge-test: --output names another' ]
+exits 2 test s --golden g --output file; ok 'a file is no folder' [ "$(cat file)" = keep ]
 mkdir mine; echo text >mine/own; exits 1 test s --golden g --output mine -q; missing mine/.gitignore; there mine/own
 exits 2 test s --golden g --junit none/dir/\0/x.xml --output file
 if [ "$(id -u)" -ne 0 ]; then
