@@ -676,6 +676,16 @@ sed -i '/^camera/d' s/one.yaml; exits 1 test s --golden g -q; exits 0 accept --g
 scene s/one.yaml blue 1.9; sed -i '/^camera/d' s/one.yaml
 exits 1 test s --golden g; out_has "camera: framing by the scene's bounds changed"; out_has 'other changes too'; out_lacks 'object "'
 rm s/one.yaml; exits 1 test s --golden g; exits 0 accept --golden g --prune; missing g/one.object.png
+# other bits or another encoding alone are no shading; what moved or is of another material is told still
+for options in '--bits 16' '--encoding linear'; do
+    fresh 'rules: [{scenes: one, aov: true}]'; sed -i 's/^    material: {diffuse: red}/    material: m/; 1i materials: {m: {diffuse: red}, n: {diffuse: blue}}' s/one.yaml
+    exits 0 test s --golden g --update-only-failed -q; sed -i "s/aov: true/&, options: $options/" g/golden.yaml
+    exits 1 test s --golden g; says changed one; out_lacks ' changed, geometry'; out_lacks 'shadow changed'; out_lacks 'background'; out_lacks 'geometry moved'
+    sed -i 's/material: m$/material: n/; s/\[1.5, 0/[1.7, 0/' s/one.yaml; exits 1 test s --golden g
+    out_has 'object "ball" (s/one.yaml:6): material changed, geometry equal'; out_has 'object "lid" (s/one.yaml:9): geometry moved'; out_lacks floor; out_lacks background
+done
+fresh 'kind: hash' 'rules: [{scenes: one, aov: true}]'; exits 0 test s --golden g --update-only-failed -q; sed -i "s/aov: true/&, options: --bits 16/" g/golden.yaml
+exits 1 test s --golden g; out_has 'geometry and shadow equal'; out_lacks 'shading changed'
 fresh 'kind: hash' 'rules: [{scenes: "*", aov: true}]'
 exits 0 test s --golden g --update-only-failed -q
 ok 'hashes of passes' grep -qE '^one .* depth=[0-9a-f]{32} normal=[0-9a-f]{32} shadow=[0-9a-f]{32}$' g/golden.lock
