@@ -99,6 +99,11 @@ refers 'options: --no-shadows' --no-shadows
 refers 'options: "--frames 1-3"' --frames 1-3
 refers 'aov: true' --aov depth
 exits 2 test s --golden g -Da=1; err_has 'options: "-D a=1"'
+for option in --tolerance=0.1 --max-delta=0.1 --max-pixels=5; do
+    exits 2 test s --golden g $option; err_has "no option \`${option%=*}\`; a tolerance stands in golden.yaml, \`rules: [{scenes: \"*\", tolerance: {max: 0.004, pixels: 0.1%, reason: edges differ}}]\`, or in the scene"
+done
+echo 'rules: [{scenes: "*", tolerance: {max: 0.004, pixels: 0.1%, reason: edges differ}}]' >g/golden.yaml; exits 1 test s --golden g -q; no_err; rm g/golden.yaml
+exits 2 accept --golden g --tolerance 1; err_lacks golden.yaml
 exits 2 test s --golden g --resume; err_lacks golden.yaml # no picture differs by that
 exits 2 accept --golden g --size 10x10; err_lacks golden.yaml
 
@@ -274,7 +279,9 @@ says orphan 'a[?]b[?]\[31m[?]'; ok 'nothing but print' sh -c '! LC_ALL=C grep -q
 exits 0 accept --golden g --prune; ok 'accept tells it so too' grep -qx 'removed a?b?\[31m?' out
 ok 'and forgets it' cmp lock g/golden.lock
 printf 'image: {size: [20, 10], samples: 1}\nscene: [{sphere: {}}]\n' >"s/$(printf 'c\nd')".yaml
-exits 1 test s --golden g; says new 'c[?]d'; out_has 'monge-test/new/c?d.png'; exits 0 accept --golden g; ok 'a name is a line' grep -qx 'took c?d' out
+exits 1 test s --golden g; says new 'c[?]d'; out_has 'monge-test/new/c?d.png'
+out_lacks again: # it would be another command
+ok 'the results have it' grep -qF '"command": "monge render '"'s/c\\nd.yaml' -o 'c\\nd.png'"'"' monge-test/results.json; exits 0 accept --golden g; ok 'a name is a line' grep -qx 'took c?d' out
 
 # ---- golden.yaml ----
 
@@ -472,8 +479,11 @@ rm -f g/golden.yaml; exits 1 test s --golden g; says changed one
 tolerance 'max: 0.02' 0; says same one; out_has 'within its tolerance (why not): '; missing monge-test/new/one.png
 tolerance 'max: 0.001' 1; says changed one; out_has 'allowed: no pixel by over 0.001'
 tolerance 'pixels: 100%' 0
-tolerance 'pixels: 1%' 1; out_has 'allowed: at most 1% of the pixels by over 0'
-tolerance 'pixels: 5' 1
+tolerance 'pixels: 1%' 1; ok 'a part' grep -qE '^ *allowed: at most 1% of the pixels$' out
+tolerance 'pixels: 5' 1; ok 'a number' grep -qE '^ *allowed: at most 5 pixels$' out
+tolerance 'pixels: 1' 1; ok 'one' grep -qE '^ *allowed: at most 1 pixel$' out
+tolerance 'pixels: 5, max: 0.001' 1; out_has 'allowed: at most 5 pixels by over 0.001'
+tolerance 'max: 0' 1; ok 'none' grep -qE '^ *allowed: no pixel$' out
 tolerance 'pixels: 1200' 0
 tolerance 'max: 0.001, pixels: 50%' 0
 tolerance 'mae: 0.01' 0; tolerance 'mae: 0.0000001' 1
@@ -493,9 +503,9 @@ scene, = [s for s in json.load(open("monge-test/results.json"))["scenes"] if s["
 print(sys.argv[1], "%.6g" % scene["metrics"][sys.argv[1]])' "${limit%%:*}")" ]
     done
 fi
-tolerance 'pixels: 5, mae: 0, psnr: 1' 1; ok 'all that is beyond, alone' grep -qE '^ *beyond: [0-9]+ pixels by over 0, mae [0-9.e-]+$' out
-ok 'in the results, too' grep -qE '"beyond": "[0-9]+ pixels by over 0, mae [0-9.e-]+"}' monge-test/results.json
-tolerance 'pixels: 1%' 1; ok 'of all, as it is allowed' grep -qE '^ *beyond: [0-9.]+% of the pixels by over 0$' out
+tolerance 'pixels: 5, mae: 0, psnr: 1' 1; ok 'all that is beyond, alone' grep -qE '^ *beyond: [0-9]+ pixels, mae [0-9.e-]+$' out
+ok 'in the results, too' grep -qE '"beyond": "[0-9]+ pixels, mae [0-9.e-]+"}' monge-test/results.json
+tolerance 'pixels: 1%' 1; ok 'of all, as it is allowed' grep -qE '^ *beyond: [0-9.]+% of the pixels$' out
 tolerance 'max: 0.02' 0; out_lacks 'beyond'; exits 0 test s --golden g --tap --junit junit.xml
 ok 'TAP says what it passes by' grep -qE '^# within its tolerance \(why not\): [0-9]+ of 1200 pixels' out
 ok 'so does JUnit, of it alone' [ "$(grep -cE '^ *<system-out>within its tolerance \(why not\): [0-9]+ of 1200 pixels.*</system-out>$' junit.xml)" -eq 1 ]

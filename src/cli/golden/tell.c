@@ -46,6 +46,13 @@ static void print_field(FILE *out, const char *key, const char *text, const char
     if (text) say_line(out, "%s%s%s", before, key, text);
 }
 
+/* With a control character in a name it would be printed as another command: results.json alone has it then. */
+static void print_command(FILE *out, const char *key, const char *command, const char *before) {
+    for (const char *c = command; c && *c; c++)
+        if ((unsigned char)*c < 0x20 || *c == 0x7f) return;
+    print_field(out, key, command, before);
+}
+
 /* All but golden_detail, each line with `before` ahead of it. */
 static void print_details(FILE *out, const struct golden_case *c, const char *before) {
     if (c->message) print_lines(out, c->message, before);
@@ -60,8 +67,8 @@ static void print_details(FILE *out, const struct golden_case *c, const char *be
     print_field(out, "beyond: ", beyond, before);
     free(beyond);
     print_field(out, "new: ", c->new_path, before);
-    print_field(out, "again: ", c->command, before);
-    print_field(out, "old: ", c->old_command, before);
+    print_command(out, "again: ", c->command, before);
+    print_command(out, "old: ", c->old_command, before);
     if (c->taken) say_line(out, "%s%s", before, GOLDEN_TAKEN);
 }
 
