@@ -68,8 +68,9 @@ bool monge_changes(struct monge_picture *older, const struct monge_layers *older
         return report(&diag->list, newer, "the pictures are not of one size");
     if (!fits(older_layers, older)) return report(&diag->list, older, "its passes are not of this picture");
     if (!fits(newer_layers, newer)) return report(&diag->list, newer, "its passes are not of this picture");
-    uint8_t *differs = find_differences(older, newer, how, reason, &about);
-    if (!differs) return report(&diag->list, about, reason);
+    const bool comparable = compare_unlike(older, newer) == MONGE_UNLIKE_NOTHING;
+    uint8_t *differs = comparable ? find_differences(older, newer, how, reason, &about) : NULL;
+    if (comparable && !differs) return report(&diag->list, about, reason);
     const bool found = changes_find(older_layers, newer_layers, differs, changes, room, count);
     free(differs);
     return found || report(&diag->list, newer, "there is no memory, or an object is not in the table");

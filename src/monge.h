@@ -594,7 +594,8 @@ struct monge_change {
  * `beyond`. Both sets of layers have the layer object and are of the rendering of their pictures; of the other layers
  * those count that both have. Objects are the same by their names; those without one, or with one name for several, by kind
  * and by what is seen at the same place, then by their order. The first `room` changes, those of most pixels first;
- * *count is how many there are. They point into the layers.
+ * *count is how many there are. They point into the layers. Of pictures with other bits or in another colour space, which
+ * differ everywhere by that, geometry and materials are told alone.
  *
  * With another camera the passes do not tell which objects moved: then the camera is the first change, and where more
  * of the scene or its settings has changed, that is the second and last. Layers of files that do not tell their camera

@@ -274,6 +274,10 @@ exits 1 diff a b --out heats/deep; is_png heats/deep/light.png; is_png heats/dee
 ok "no others" [ "$(find heats -type f | wc -l)" -eq 2 ]
 "$monge" diff a/sub/dot.png b/sub/dot.png --out heat.png >out 2>err
 ok "the same heat map" cmp heat.png heats/deep/sub/dot.png
+# a reader that goes away ends none of it
+for folder in a b; do cp cut.png $folder/cut.png; done
+unread diff a b --out unread; ok "it is output that fails" [ "$status" -eq 2 ]; is_png unread/sub/dot.png
+rm a/cut.png b/cut.png
 for folder in a a/sub b/heats; do
     exits 2 diff a b --out $folder; no_out
     err_has "--out $folder: the heat map $folder/grey.png would be among the pictures of ${folder%%/*}"

@@ -99,6 +99,11 @@ refers 'options: --no-shadows' --no-shadows
 refers 'options: "--frames 1-3"' --frames 1-3
 refers 'aov: true' --aov depth
 exits 2 test s --golden g -Da=1; err_has 'options: "-D a=1"'
+for option in --tolerance=0.1 --max-delta=0.1 --max-pixels=5; do
+    exits 2 test s --golden g $option; err_has "no option \`${option%=*}\`; a tolerance stands in golden.yaml, \`rules: [{scenes: \"*\", tolerance: {max: 0.004, pixels: 0.1%, reason: edges differ}}]\`, or in the scene"
+done
+echo 'rules: [{scenes: "*", tolerance: {max: 0.004, pixels: 0.1%, reason: edges differ}}]' >g/golden.yaml; exits 1 test s --golden g -q; no_err; rm g/golden.yaml
+exits 2 accept --golden g --tolerance 1; err_lacks golden.yaml
 exits 2 test s --golden g --resume; err_lacks golden.yaml # no picture differs by that
 exits 2 accept --golden g --size 10x10; err_lacks golden.yaml
 
@@ -274,7 +279,9 @@ says orphan 'a[?]b[?]\[31m[?]'; ok 'nothing but print' sh -c '! LC_ALL=C grep -q
 exits 0 accept --golden g --prune; ok 'accept tells it so too' grep -qx 'removed a?b?\[31m?' out
 ok 'and forgets it' cmp lock g/golden.lock
 printf 'image: {size: [20, 10], samples: 1}\nscene: [{sphere: {}}]\n' >"s/$(printf 'c\nd')".yaml
-exits 1 test s --golden g; says new 'c[?]d'; out_has 'monge-test/new/c?d.png'; exits 0 accept --golden g; ok 'a name is a line' grep -qx 'took c?d' out
+exits 1 test s --golden g; says new 'c[?]d'; out_has 'monge-test/new/c?d.png'
+out_lacks again: # it would be another command
+ok 'the results have it' grep -qF '"command": "monge render '"'s/c\\nd.yaml' -o 'c\\nd.png'"'"' monge-test/results.json; exits 0 accept --golden g; ok 'a name is a line' grep -qx 'took c?d' out
 
 # ---- golden.yaml ----
 
@@ -299,6 +306,14 @@ fresh; : >g/golden.yaml; exits 1 test s --golden g; no_err; exits 0 accept --gol
 for other in '-' '- # a' '--' 'a' '# a'$'\n''a'; do fresh "$other"; exits 2 test s --golden g; err_has 'g/golden.yaml:'; done
 fresh 'root: ../nowhere'; exits 2 test s --golden g; err_has '`root`: g/../nowhere: No such file'
 fresh 'rules: [{scenes: one, options: --frames 2}]'; exits 1 test s --golden g; says broken one; out_has 'has no animation'
+# its command shows what is wrong, too
+for options in '--frames 2 --size 20x15' '--size 20x15 --frames 2-3' '--size 20x15 --frames 1-4:2'; do
+    fresh "rules: [{scenes: one, options: $options}]"; exits 1 test s --golden g; says broken one; frames=${options#*--frames }
+    out_has "again: monge render s/one.yaml --size 20x15 --frames ${frames% --*} -o 'one-{frame}.png'"
+    sed -n '/^broken/,/^new/s/^ *again: //p' out >command; sed -i "s,^monge,'$monge'," command; sh ./command >out 2>err; status=$?
+    ok 'it is what it shows' [ "$status" -eq 2 ]; err_has 'has no animation'
+done
+fresh 'rules: [{scenes: one, options: --frames 2}]'; echo 'scene: [{sphre: {}}]' >s/one.yaml; exits 1 test s --golden g; out_has "s/one.yaml --frames 2 -o 'one-{frame}.png'"
 fresh 'rules: [{scenes: one, options: --frames all}]'; exits 1 test s --golden g; says new one; out_has 'monge render s/one.yaml -o one.png'
 fresh 'rules: [{scenes: one, options: "--region 0,0,99,99"}]'; exits 1 test s --golden g; says broken one; out_has 'does not lie within'
 
@@ -372,7 +387,7 @@ ok 'the lines that are left' [ "$(grep -o '^[^# ]*' g/golden.lock | tr '\n' ,)" 
 printf 'rules: [{scenes: turn, options: --frames all}]\n' >g/golden.yaml
 printf 'image: {size: [20, 10], samples: 1}\nanimation: {frames: 3}\nscene: [{sphere: {}}]\n' >s/turn.yaml
 cp s/one.yaml s/turn-0002.yaml
-exits 2 test s --golden g -q; err_has 's/turn.yaml and s/turn-0002.yaml have the same golden, turn-0002'
+exits 2 test s --golden g -q; err_has 's/turn.yaml and s/turn-0002.yaml would both write turn-0002.png: rename one of them'
 
 # ---- Orphans are told by runs of folders alone, and not of scenes that are there ----
 
@@ -433,6 +448,25 @@ exits 2 test s --golden g --root none; err_has '--root none: No such file or dir
 : | "$monge" test @- --golden g --root s >out 2>err; status=$?; last='test @-'; ok 'an empty list' [ $status -eq 0 ]
 err_has 'the list is empty: nothing to test'; out_has '0 goldens'
 fresh; scene other/one.yaml red; exits 2 test s other --golden g; err_has 's/one.yaml and other/one.yaml would have the same golden, one: give --root, or golden.yaml a `root`'; rm -r other
+# no root tells extensions apart
+fresh; cp s/one.yaml s/one.yml
+for root in '' --root=s; do
+    exits 2 test s --golden g $root; ok 'a name is what helps' [ "$(cat err)" = 'monge: s/one.yaml and s/one.yml would have the same golden, one: rename one of them' ]
+done
+# files of two scenes: a pass that is called as a picture, and a folder that is
+shared() { exits 2 test s --golden g; ok 'a line' [ "$(cat err)" = "monge: $1: rename one of them" ]; no_out; missing monge-test; }
+fresh 'rules: [{scenes: one, aov: true}]'; cp s/one.yaml s/one.object.yaml; cp s/one.yaml s/one.depth.yaml
+shared 's/one.yaml and s/one.object.yaml would both write one.object.png'
+mv s/one.object.yaml s/one.objects.yaml; exits 1 test s --golden g -q; no_err # nor is depth a PNG
+fresh 'rules: [{scenes: one, aov: true, options: "-D a=1,2"}]'; sed -i '1i params: {a: 1}' s/one.yaml; cp s/one.yaml s/one-a=2.normal.yaml
+shared 's/one.yaml and s/one-a=2.normal.yaml would both write one-a=2.normal.png'
+fresh; mkdir s/one.png; cp s/two.yaml s/one.png/x.yaml; cp s/two.yaml 's/one.png!.yaml'
+shared 's/one.yaml writes one.png, which is a folder of what s/one.png/x.yaml writes, one.png/x.png'
+fresh 'rules: [{scenes: one, aov: true, options: --frames all}]'; sed -i '1i animation: {frames: 2}' s/one.yaml
+cp s/two.yaml s/one.object.yaml; exits 1 test s --golden g -q; no_err # the frames have other names
+cp s/two.yaml s/one-0001.object.yaml; sums g >before
+exits 2 test s --golden g -q --update-only-failed; err_has 's/one.yaml and s/one-0001.object.yaml would both write one-0001.object.png: rename one of them'
+ok 'nothing is taken' [ "$(sums g)" = "$(cat before)" ]
 fresh; exits 1 test 's/**/*.yaml' --golden g; says new one; says new 'in/a b%'
 
 # ---- Tolerances ----
@@ -445,8 +479,11 @@ rm -f g/golden.yaml; exits 1 test s --golden g; says changed one
 tolerance 'max: 0.02' 0; says same one; out_has 'within its tolerance (why not): '; missing monge-test/new/one.png
 tolerance 'max: 0.001' 1; says changed one; out_has 'allowed: no pixel by over 0.001'
 tolerance 'pixels: 100%' 0
-tolerance 'pixels: 1%' 1; out_has 'allowed: at most 1% of the pixels by over 0'
-tolerance 'pixels: 5' 1
+tolerance 'pixels: 1%' 1; ok 'a part' grep -qE '^ *allowed: at most 1% of the pixels$' out
+tolerance 'pixels: 5' 1; ok 'a number' grep -qE '^ *allowed: at most 5 pixels$' out
+tolerance 'pixels: 1' 1; ok 'one' grep -qE '^ *allowed: at most 1 pixel$' out
+tolerance 'pixels: 5, max: 0.001' 1; out_has 'allowed: at most 5 pixels by over 0.001'
+tolerance 'max: 0' 1; ok 'none' grep -qE '^ *allowed: no pixel$' out
 tolerance 'pixels: 1200' 0
 tolerance 'max: 0.001, pixels: 50%' 0
 tolerance 'mae: 0.01' 0; tolerance 'mae: 0.0000001' 1
@@ -466,9 +503,9 @@ scene, = [s for s in json.load(open("monge-test/results.json"))["scenes"] if s["
 print(sys.argv[1], "%.6g" % scene["metrics"][sys.argv[1]])' "${limit%%:*}")" ]
     done
 fi
-tolerance 'pixels: 5, mae: 0, psnr: 1' 1; ok 'all that is beyond, alone' grep -qE '^ *beyond: [0-9]+ pixels by over 0, mae [0-9.e-]+$' out
-ok 'in the results, too' grep -qE '"beyond": "[0-9]+ pixels by over 0, mae [0-9.e-]+"}' monge-test/results.json
-tolerance 'pixels: 1%' 1; ok 'of all, as it is allowed' grep -qE '^ *beyond: [0-9.]+% of the pixels by over 0$' out
+tolerance 'pixels: 5, mae: 0, psnr: 1' 1; ok 'all that is beyond, alone' grep -qE '^ *beyond: [0-9]+ pixels, mae [0-9.e-]+$' out
+ok 'in the results, too' grep -qE '"beyond": "[0-9]+ pixels, mae [0-9.e-]+"}' monge-test/results.json
+tolerance 'pixels: 1%' 1; ok 'of all, as it is allowed' grep -qE '^ *beyond: [0-9.]+% of the pixels$' out
 tolerance 'max: 0.02' 0; out_lacks 'beyond'; exits 0 test s --golden g --tap --junit junit.xml
 ok 'TAP says what it passes by' grep -qE '^# within its tolerance \(why not\): [0-9]+ of 1200 pixels' out
 ok 'so does JUnit, of it alone' [ "$(grep -cE '^ *<system-out>within its tolerance \(why not\): [0-9]+ of 1200 pixels.*</system-out>$' junit.xml)" -eq 1 ]
@@ -649,6 +686,16 @@ sed -i '/^camera/d' s/one.yaml; exits 1 test s --golden g -q; exits 0 accept --g
 scene s/one.yaml blue 1.9; sed -i '/^camera/d' s/one.yaml
 exits 1 test s --golden g; out_has "camera: framing by the scene's bounds changed"; out_has 'other changes too'; out_lacks 'object "'
 rm s/one.yaml; exits 1 test s --golden g; exits 0 accept --golden g --prune; missing g/one.object.png
+# other bits or another encoding alone are no shading; what moved or is of another material is told still
+for options in '--bits 16' '--encoding linear'; do
+    fresh 'rules: [{scenes: one, aov: true}]'; sed -i 's/^    material: {diffuse: red}/    material: m/; 1i materials: {m: {diffuse: red}, n: {diffuse: blue}}' s/one.yaml
+    exits 0 test s --golden g --update-only-failed -q; sed -i "s/aov: true/&, options: $options/" g/golden.yaml
+    exits 1 test s --golden g; says changed one; out_lacks ' changed, geometry'; out_lacks 'shadow changed'; out_lacks 'background'; out_lacks 'geometry moved'
+    sed -i 's/material: m$/material: n/; s/\[1.5, 0/[1.7, 0/' s/one.yaml; exits 1 test s --golden g
+    out_has 'object "ball" (s/one.yaml:6): material changed, geometry equal'; out_has 'object "lid" (s/one.yaml:9): geometry moved'; out_lacks floor; out_lacks background
+done
+fresh 'kind: hash' 'rules: [{scenes: one, aov: true}]'; exits 0 test s --golden g --update-only-failed -q; sed -i "s/aov: true/&, options: --bits 16/" g/golden.yaml
+exits 1 test s --golden g; out_has 'geometry and shadow equal'; out_lacks 'shading changed'
 fresh 'kind: hash' 'rules: [{scenes: "*", aov: true}]'
 exits 0 test s --golden g --update-only-failed -q
 ok 'hashes of passes' grep -qE '^one .* depth=[0-9a-f]{32} normal=[0-9a-f]{32} shadow=[0-9a-f]{32}$' g/golden.lock
@@ -750,6 +797,15 @@ PYTHON
 fi
 exits 0 accept one --golden g; exits 0 test s/one.yaml --golden g --changed --junit junit.xml --tap
 out_has '# SKIP unchanged'; ok 'JUnit skips' grep -q '<skipped' junit.xml
+# what is taken passes, and says so; what cannot be does not
+fresh; exits 1 test s --golden g -q; exits 0 accept two --golden g -q; scene s/two.yaml lime; mkdir away; ln -s ../away g/in
+exits 2 test s --golden g --update-only-failed --tap --junit junit.xml; cp out tap
+ok 'taken' [ "$(grep -A 1 '^ok' tap | cut -d ' ' -f 1,4- | tr '\n' '|')" = 'ok one|# taken: the new picture is its golden now|ok two|# taken: the new picture is its golden now|' ]
+ok 'each as what it was' [ "$(grep '^# .*, and taken' tap | cut -c 3-9)" = $'new, an\nchanged' ]; ok 'left' grep -qx 'not ok 1 - in/a b%' tap
+ok 'the counts of JUnit' grep -q 'tests="3" failures="1" errors="0"' junit.xml; ok 'what fails there' [ "$(grep -c '<failure' junit.xml)" -eq 1 ]
+ok 'JUnit says so' [ "$(grep -o '<system-out>.*<' junit.xml | tr '\n' '|')" = '<system-out>new, and taken: the new picture is its golden now<|<system-out>changed, and taken: the new picture is its golden now<|' ]
+rm -r g/in away; exits 1 test s --golden g --tap; ok 'they are' [ "$(grep -c '^ok' out)" -eq 2 ]
+scene s/one.yaml lime; exits 0 test s --golden g --update-only-failed -q; ok 'quietly, too' [ "$(grep -c '^ *taken: the new picture is its golden now$' out)" -eq 2 ]
 
 fresh; printf 'animation: {frames: 2}\nimage: {size: [400, 300]}\nscene: [{sphere: {}}]\n' >s/two.yaml; printf 'scene: [{spere: {}}]\n' >s/in/wrong.yaml
 printf 'rules: [{scenes: two, options: --frames all}]\n' >g/golden.yaml
@@ -908,7 +964,7 @@ for option in json junit; do
     refuses() { exits 2 test s --golden g --$option "$1"; ok 'a line' [ "$(cat err)" = "monge: --$option $1$2" ]; no_out; missing monge-test; }
     for file in g/golden.yaml g/one.png g/golden.lock g/new.json soft; do refuses $file ' would write into the folder of the goldens, g'; done
     refuses hard ' would write over a scene of the run'; refuses s/two.yaml ' would write over a scene of the run'
-    for file in more.yml s/none.YAML x.png x.lock; do refuses $file ': it is called as scenes or goldens are, and would be none'; done
+    for file in more.yml s/none.YAML x.png x.lock; do refuses $file ': the name ends as those of scenes and goldens do: choose another'; done
 done
 exits 2 test s --golden g --json j --junit ./j; err_has '--json and --junit would write the same file, ./j'; missing j
 exits 2 test s --golden g --junit monge-test/results.json; err_has '--output and --junit would write the same file'
@@ -972,6 +1028,16 @@ if [ "$(id -u)" -ne 0 ]; then
 else
     left_out 'folders that cannot be written: root can'
 fi
+# what may not be read is told as that: by another user, where this one is root
+fresh 'root: ../s'; cp "$monge" any; chmod 755 "$work"; chmod 0 g; last='test with goldens that may not be read'
+as=(); [ "$(id -u)" -ne 0 ] || as=(setpriv --reuid=65534 --clear-groups)
+if "${as[@]}" ./any help >out 2>&1; then
+    "${as[@]}" ./any test --golden g >out 2>err; ok 'exit 2' [ $? -eq 2 ]
+    ok 'the reason' [ "$(cat err)" = 'monge: cannot read g/golden.yaml: Permission denied' ]
+else
+    left_out 'goldens that may not be read: root can'
+fi
+chmod 755 g; rm any
 # of an option that counts for nothing, with its place
 fresh 'rules:' '  - {scenes: one, options: "-D a=1 -D a=2"}'; sed -i '1i params: {a: 1}' s/one.yaml
 exits 1 test s --golden g
@@ -979,7 +1045,7 @@ ok 'a parameter that is set twice, once' [ "$(cat err)" = 'monge: warning[given-
 # quietly only what is wrong is told, and a document that was asked for
 fresh; exits 0 test s --golden g --update-only-failed; out_has '3 of 3 new pictures are goldens now'
 scene s/one.yaml lime; exits 1 test s --golden g -q; cp out x; says changed one; ok 'no line of what is the same' sh -c '! grep -q ^same out'; out_lacks goldens; no_err
-exits 0 test s --golden g --update-only-failed -q; sed 's/^ *new: .*//' out >y; says changed one; out_lacks goldens
+exits 0 test s --golden g --update-only-failed -q; sed 's/^ *new: .*//; /^ *taken: the new picture is its golden now$/d' out >y; out_has '  taken: the'; says changed one; out_lacks goldens
 ok 'what has failed is told in the same lines' [ "$(sed 's/^ *new: .*//' x)" = "$(cat y)" ]
 exits 0 test s --golden g -q; no_out; no_err; exits 0 test s --golden g --changed -q; no_out; no_err
 exits 0 test s --golden g -q --tap; out_has '# 3 goldens: 3 same'; exits 0 test s --golden g -q --json -; out_has '"same": 3'
@@ -1124,7 +1190,14 @@ exits 1 accept --golden g; err_has 'one is left as it is: its new picture cannot
 exits 1 test s --golden g -q
 sed "s/\"program\": \"[0-9a-f]*\", \"size\"/\"program\": \"$hash\", \"size\"/" monge-test/results.json >x; cp x monge-test/results.json
 rm -rf g; mkdir g; exits 1 accept --golden g; err_has 'the program has changed since the run'; ok 'nothing is taken' [ -z "$(ls g)" ]
-echo keep >file; exits 2 test s --golden g --output file; err_has 'file'; ok 'a file is no folder' [ "$(cat file)" = keep ]
+echo keep >file; for path in file file/ file/x/y; do
+    for option in output report; do exits 2 test s --golden g --$option $path; ok "a file for --$option" [ "$(cat err)" = "monge: --$option $path: file is no folder" ]; no_out; done
+    exits 2 accept --golden g --output $path; ok 'of accept' [ "$(cat err)" = "monge: --output $path: file is no folder" ]
+    exits 1 test s --golden g -q --report none/$path; rm -r none
+done
+exits 2 test s --golden g --json s; ok 'a folder for a file' [ "$(cat err)" = 'monge: --json s: it is a folder' ]
+exits 2 test s --golden .; ok 'where nobody said where' [ "$(cat err)" = 'monge: the run would write into the folder of the goldens, ., as its own is monge-test: --output names another' ]
+exits 2 test s --golden g --output file; ok 'a file is no folder' [ "$(cat file)" = keep ]
 mkdir mine; echo text >mine/own; exits 1 test s --golden g --output mine -q; missing mine/.gitignore; there mine/own
 exits 2 test s --golden g --junit none/dir/\0/x.xml --output file
 if [ "$(id -u)" -ne 0 ]; then
@@ -1132,6 +1205,16 @@ if [ "$(id -u)" -ne 0 ]; then
     exits 2 test s --golden g --output sealed/run; err_has 'cannot make the folder sealed/run'
     chmod 700 sealed
 fi
+# a reader that goes away is output that fails, and no more than that
+fresh; exits 1 test s --golden g -q; exits 0 accept one --golden g -q; scene s/one.yaml lime
+for command in "test s" "test s --tap" "test s --json -"; do
+    rm -rf monge-test; unread $command --golden g --junit z.xml --report r; ok 'it is output that fails' [ "$status" -eq 2 ]
+    ok 'the run is whole' grep -q '"new": 2' monge-test/results.json; there monge-test/new/one.png z.xml r/index.html; rm -r z.xml r
+done
+rm gone; { await '[ -e gone ]'; "$monge" test s --golden g 2>err; } | { exec <&-; : >gone; }; ok 'that is told' [ "$(cat err)" = 'monge: cannot write standard output: Broken pipe' ]
+unread test s --golden g --update-only-failed; exits 0 test s --golden g -q
+scene s/one.yaml blue; scene s/two.yaml lime; exits 1 test s --golden g -q; scene s/one.yaml red # it says so before it writes the lock
+unread accept --golden g; ok 'of accept, too' [ "$status" -eq 2 ]; exits 0 test s/two.yaml --golden g -q
 last='test with a full disk'
 rm -rf monge-test
 (trap '' XFSZ; ulimit -f 0; "$monge" test s --golden g -q 2>err | cat >out; exit "${PIPESTATUS[0]}"); status=$?

@@ -235,6 +235,7 @@ static void compare_all(struct folders *folders) {
                                 .run = run_entry,
                                 .ended = end_entry};
     folders->threads = option[OPTION_THREADS].given ? option[OPTION_THREADS].number[0] : processors / jobs;
+    if (option[OPTION_HEAT_MAP].given) streams_outlive_readers();
     if (option[OPTION_DIFF_JSON].given) puts("[");
     batch_run(&batch);
     if (option[OPTION_DIFF_JSON].given)

@@ -293,6 +293,14 @@ static bool set_next_value(struct arguments *args, enum option_id option, const 
     return false;
 }
 
+/* Those of diff, and what somebody may call them: a tolerance needs its reason. */
+static bool is_tolerance(enum command_id command, const char *word) {
+    static const char *const words[] = {"tolerance", "max-delta", "max-pixels"};
+    for (size_t i = 0; command == COMMAND_TEST && i < sizeof words / sizeof *words; i++)
+        if (strcmp(word, words[i]) == 0) return true;
+    return false;
+}
+
 /* Reports a long option, `length` bytes of name, that the command does not have. */
 static bool unknown_long(enum command_id command, const char *name, size_t length, struct words *rest) {
     char word[64], shown[sizeof word + 2];
@@ -308,7 +316,12 @@ static bool unknown_long(enum command_id command, const char *name, size_t lengt
         if (command_takes(command, o)) suggestion_try(&nearest, OPTION_TABLE[o].name);
     const char *best = suggestion_best(&nearest);
     const bool side = strcmp(word, "width") == 0 || strcmp(word, "height") == 0;
-    if (side && command_takes(command, OPTION_SIZE))
+    if (is_tolerance(command, word))
+        say_usage(command,
+                  "no option `%s`; a tolerance stands in golden.yaml, `rules: [{scenes: \"*\", tolerance: "
+                  "{max: 0.004, pixels: 0.1%%, reason: edges differ}}]`, or in the scene",
+                  shown);
+    else if (side && command_takes(command, OPTION_SIZE))
         say_usage(command, "no option `%s`; did you mean `--size WxH`?", shown);
     else if (best)
         say_usage(command, "no option `%s`; did you mean `--%s`?", shown, best);

@@ -104,6 +104,8 @@ void streams_open(void) {
     setvbuf(stdout, buffer, _IOFBF, sizeof buffer);
 }
 
+void streams_outlive_readers(void) { signal(SIGPIPE, SIG_IGN); }
+
 static int output_error; /* of stdout: the first errno, which later calls on a stream that has failed lose */
 
 /* Why a stream failed that has forgotten it: it fails again. */

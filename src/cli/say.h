@@ -42,6 +42,10 @@ _Noreturn void say_no_memory(void);
 /* Before all else: a stream that was closed must not become a file that is opened later. */
 void streams_open(void);
 
+/* For commands with files to write: a reader of stdout or stderr that goes away, as head(1), makes an error of that output,
+ * where the signal would end the program before the files are written. */
+void streams_outlive_readers(void);
+
 void streams_flush(void); /* of stdout, so that its lines keep their place among those of stderr */
 
 /* At the end: the exit status, STATUS_TROUBLE where stdout did not take everything. */

@@ -23,7 +23,7 @@ struct track {
 
 struct inquiry {
     const struct monge_layers *layers[SIDES];
-    const uint8_t *differs;
+    const uint8_t *differs; /* NULL: not known */
     struct arena *arena;
     uint32_t width, height;
     struct track *tracks; /* 0: the background */
@@ -327,6 +327,10 @@ static enum monge_change_kind kind_of(const struct inquiry *c, size_t i) {
     return MONGE_CHANGE_SHADING;
 }
 
+static bool looks_different(const struct inquiry *c, size_t i) {
+    return c->differs ? c->differs[i] : c->object[OLDER][i] && !same_material(c, i);
+}
+
 static void accuse(struct inquiry *c, size_t i, uint32_t track, enum monge_change_kind kind) {
     c->cause[i] = track;
     c->kind[i] = (uint8_t)kind;
@@ -343,7 +347,7 @@ static void find_causes(struct inquiry *c) {
                 accuse(c, i, one_in_front(c, i), MONGE_CHANGE_GEOMETRY);
             else if (a && !same_geometry(c, i))
                 accuse(c, i, a, MONGE_CHANGE_GEOMETRY);
-            else if (c->differs[i])
+            else if (looks_different(c, i))
                 accuse(c, i, a, kind_of(c, i));
             if (c->cause[i] == NOBODY) continue;
             struct track *track = &c->tracks[c->cause[i]];
@@ -471,7 +475,7 @@ static size_t list_camera(const struct inquiry *c, enum monge_change_kind kind, 
     const size_t count = strcmp(older->others, newer->others) == 0 ? 1 : 2;
     for (uint32_t y = 0; y < c->height; y++)
         for (uint32_t x = 0; x < c->width; x++) {
-            if (!c->differs[(size_t)y * c->width + x]) continue;
+            if (c->differs && !c->differs[(size_t)y * c->width + x]) continue;
             all[0].pixels++;
             extend(&all[0].bounds, x, y);
         }

@@ -6,8 +6,8 @@
 
 #include "render/layers.h"
 
-/* The whole of monge_changes: `differs` has a byte for each pixel, not 0 where the pictures differ in colour. False
- * where the layers do not fit each other, an object is not in their tables, or there is no memory. */
+/* The whole of monge_changes: `differs` has a byte for each pixel, not 0 where the pictures differ in colour; NULL:
+ * nobody knows where, and only what the layers say by themselves is told, geometry and materials. False where the layers do not fit each other, an object is not in their tables, or there is no memory. */
 bool changes_find(const struct monge_layers *older, const struct monge_layers *newer, const uint8_t *differs,
                   struct monge_change *changes, size_t room, size_t *count);
 

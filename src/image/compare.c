@@ -110,7 +110,7 @@ static bool same_space(const struct color_space *a, const struct color_space *b)
            (a->profile_size == 0 || memcmp(a->profile, b->profile, a->profile_size) == 0);
 }
 
-static enum monge_unlike find_unlike(const struct monge_picture *a, const struct monge_picture *b) {
+enum monge_unlike compare_unlike(const struct monge_picture *a, const struct monge_picture *b) {
     if (a->width != b->width || a->height != b->height) return MONGE_UNLIKE_SIZE;
     if (!same_space(&a->space, &b->space)) return MONGE_UNLIKE_COLOR_SPACE;
     return a->bits != b->bits ? MONGE_UNLIKE_BITS : MONGE_UNLIKE_NOTHING;
@@ -142,7 +142,7 @@ static bool compare_decoded(struct comparison *c, const struct monge_compare *ho
 bool compare_pictures(struct monge_picture *a, struct monge_picture *b, const struct monge_compare *how,
                       struct monge_difference *out, char reason[PICTURE_REASON_SIZE],
                       const struct monge_picture **about) {
-    *out = (struct monge_difference){.unlike = find_unlike(a, b), .max = NAN, .mae = NAN, .rmse = NAN};
+    *out = (struct monge_difference){.unlike = compare_unlike(a, b), .max = NAN, .mae = NAN, .rmse = NAN};
     out->psnr = out->ssim = out->flip = NAN;
     if (out->unlike == MONGE_UNLIKE_SIZE || out->unlike == MONGE_UNLIKE_COLOR_SPACE) return true;
     /* What is equal in every pixel needs no more than this. */

@@ -24,6 +24,9 @@ static inline const uint8_t *comparison_ignored(const struct comparison *compari
     return comparison->ignored ? comparison->ignored + (size_t)y * comparison->a->width : NULL;
 }
 
+/* The first of these that is not the same, whatever the pixels are. */
+enum monge_unlike compare_unlike(const struct monge_picture *a, const struct monge_picture *b);
+
 /* The whole of monge_compare. */
 bool compare_pictures(struct monge_picture *a, struct monge_picture *b, const struct monge_compare *how,
                       struct monge_difference *out, char reason[PICTURE_REASON_SIZE],

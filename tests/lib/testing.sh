@@ -44,6 +44,14 @@ exits() {
     ok "exit $want: monge $*" [ "$status" -eq "$want" ]
 }
 
+# unread ARGS...: runs monge with both of its streams into a pipe whose reader has gone.
+unread() {
+    last="$* (into a closed pipe)"
+    rm -f gone
+    { await '[ -e gone ]'; "$monge" "$@" 2>&1; } < /dev/null | { exec <&-; : >gone; }
+    status=${PIPESTATUS[0]}
+}
+
 out_is() { ok "stdout is $(tr '\n' '|' <<<"$1")" [ "$(cat out)" = "$1" ]; }
 out_has() { ok "stdout has \`$1\`" grep -qF -e "$1" out; }
 out_lacks() { ok "stdout lacks \`$1\`" sh -c '! grep -qF -e "$1" out' sh "$1"; }

@@ -341,13 +341,15 @@ static bool begin(struct acceptance *a) {
     a->folder = option[OPTION_GOLDEN].text;
     a->output = option[OPTION_TEST_OUTPUT].given ? option[OPTION_TEST_OUTPUT].text : "monge-test";
     golden_hold(a->folder);
-    return golden_check_folder(a->folder) && limits_read(a->args, &a->loader.limits) &&
+    return golden_check_folder(a->folder) && golden_check_output("output", a->output) &&
+           limits_read(a->args, &a->loader.limits) &&
            golden_settings_read(&a->settings, a->folder, NULL, NULL, &a->loader) &&
            golden_lock_read(&a->lock, a->folder) && read_run(a) && name_scenes(a) && check_globs(a);
 }
 
 enum status accept_command(const struct arguments *args) {
     struct acceptance a = {.args = args};
+    streams_outlive_readers();
     const enum status status = begin(&a) ? settle(&a) : STATUS_TROUBLE;
     free(a.scenes);
     free(a.sealed);

@@ -53,13 +53,16 @@ static void listen_end(struct listener *listener, struct golden_case *c) {
 
 /* ---- Commands ---- */
 
+/* `frames`: all that --frames asks for, of a scene without a picture; NULL: it is the one of this frame. */
 static void set_command(struct golden_case *c, const struct golden_rule *rule,
-                        const struct monge_define *defines, unsigned frame) {
+                        const struct monge_define *defines, unsigned frame, const char *frames) {
     const char *slash = strrchr(c->name, '/');
     char *options = asked_text(rule->args.option, defines, rule->loader.sweep.count, frame),
          *scene = word_quoted(c->scene);
-    char *picture = say_text("%s.png", slash ? slash + 1 : c->name), *output = word_quoted(picture);
-    c->arguments = say_text("%s%s%s", scene, *options ? " " : "", options);
+    char *picture = say_text("%s%s.png", slash ? slash + 1 : c->name, frames ? "-{frame}" : ""),
+         *output = word_quoted(picture);
+    c->arguments = say_text("%s%s%s%s%s", scene, *options ? " " : "", options, frames ? " --frames " : "",
+                            frames ? frames : "");
     c->command = say_text("monge render %s -o %s", c->arguments, output);
     free(output);
     free(picture);
@@ -75,7 +78,8 @@ struct subject {
     struct golden_scene *scene;
     const struct monge_define *defines;
     struct load *load;
-    unsigned frame; /* 0: --frames is not given */
+    unsigned frame; /* 0: --frames is not given, or */
+    bool lost;      /* what frames there are is not known */
     int digits;     /* of the last frame */
 };
 
@@ -95,7 +99,8 @@ static struct golden_case *add_case(const struct subject *s) {
                               .aov = scene->rule->rule->aov,
                               .status = GOLDEN_BROKEN};
     c->now.options = asked_text(scene->rule->args.option, s->defines, sweep->count, s->frame);
-    set_command(c, scene->rule, s->defines, frames ? s->frame : 0);
+    set_command(c, scene->rule, s->defines, frames ? s->frame : 0,
+                s->lost ? scene->rule->args.option[OPTION_FRAMES].text : NULL);
     return c;
 }
 
@@ -196,6 +201,7 @@ static void run_frames(struct subject *s) {
     listen_begin(&listener);
     unsigned *frames = asked_frames(option, s->scene->path, total, &s->run->loader.report, &count);
     if (!frames) {
+        s->lost = true;
         struct golden_case *c = add_case(s);
         listen_end(&listener, c);
         progress_done(&s->scene->progress, PICTURE_FAILED);
@@ -253,6 +259,7 @@ static void run_combination(struct subject *s) {
         load_scene(&rule->loader, s->scene->path, s->defines, rule->args.option[OPTION_FRAMES].number[0]);
     s->load = &load;
     s->frame = 0;
+    s->lost = !load.scene;
     struct golden_case none = {.status = GOLDEN_SAME};
     struct golden_case *c = load.scene ? &none : add_case(s);
     c->trouble = load.status == STATUS_TROUBLE;

@@ -32,8 +32,13 @@ bool golden_is_there(const char *path) {
 }
 
 bool golden_check_file(const char *path) {
-    if (path_is_file(path)) return true;
-    say_error("%s is not a file", path);
+    struct stat status;
+    if (stat(path, &status) != 0)
+        say_error("cannot read %s: %s", path, strerror(errno));
+    else if (!S_ISREG(status.st_mode))
+        say_error("%s is not a file", path);
+    else
+        return true;
     return false;
 }
 
@@ -46,6 +51,15 @@ bool golden_check_folder(const char *folder) {
     else
         say_error("--golden %s: it takes a folder", folder);
     return false;
+}
+
+bool golden_check_output(const char *option, const char *path) {
+    char *at = say_text("%s", path);
+    for (char *slash; !golden_is_there(at) && (slash = strrchr(at, '/')) && slash > at;) *slash = '\0';
+    const bool good = path_is_folder(at) || !golden_is_there(at);
+    if (!good) say_error("--%s %s: %s is no folder", option, path, at);
+    free(at);
+    return good;
 }
 
 void golden_hold(const char *folder) {

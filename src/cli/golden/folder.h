@@ -15,6 +15,9 @@ bool golden_check_file(const char *path);
 /* What --golden is given must be a folder, as soon as it is there. False: told. */
 bool golden_check_folder(const char *folder);
 
+/* Whether a folder can be there, of which this option says where: no file is, nor on the way. False: told. */
+bool golden_check_output(const char *option, const char *path);
+
 /* Waits until no other process holds the folder, up to the end of this one: of two that read, change and write its lock the
  * later would undo what the earlier has done. Where there is no such folder, or no such thing as a lock, it goes on. */
 void golden_hold(const char *folder);

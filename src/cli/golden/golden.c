@@ -59,13 +59,22 @@ static char *with_part(char *text, char *part) {
     return longer;
 }
 
+/* Where any difference counts there is no bound to tell. */
+static char *over_text(const struct monge_tolerance *t) {
+    return t->max > 0.0 ? say_text(" by over %.12g", t->max) : say_text("%s", "");
+}
+
+static const char *pixels_word(const struct monge_tolerance *t, double count) {
+    return t->percent ? "% of the pixels" : count == 1.0 ? " pixel" : " pixels";
+}
+
 char *golden_tolerance_text(const struct monge_tolerance *t) {
-    char *text = say_text("%s", "");
+    char *text = say_text("%s", ""), *over = over_text(t);
     if (!isnan(t->max) && t->pixels > 0.0)
-        text = with_part(text, say_text("at most %.12g%s of the pixels by over %.12g", t->pixels,
-                                        t->percent ? "%" : "", t->max));
+        text = with_part(text, say_text("at most %.12g%s%s", t->pixels, pixels_word(t, t->pixels), over));
     else if (!isnan(t->max))
-        text = with_part(text, say_text("no pixel by over %.12g", t->max));
+        text = with_part(text, say_text("no pixel%s", over));
+    free(over);
     if (!isnan(t->mae)) text = with_part(text, say_text("mae at most %.12g", t->mae));
     if (!isnan(t->rmse)) text = with_part(text, say_text("rmse at most %.12g", t->rmse));
     if (!isnan(t->psnr)) text = with_part(text, say_text("psnr at least %.12g", t->psnr));
@@ -114,9 +123,11 @@ static char *with_metric(char *text, bool within, const char *name, double value
 static char *with_pixels(char *text, const struct monge_tolerance *t, const struct monge_difference *d) {
     const double percent = 100.0 * (double)d->beyond / (double)(d->pixels ? d->pixels : 1);
     if (isnan(t->max) || (double)d->beyond <= pixels_allowed(t, d)) return text;
-    if (t->percent) return with_part(text, say_text("%.6g%% of the pixels by over %.12g", percent, t->max));
-    return with_part(text, say_text("%llu pixel%s by over %.12g", (unsigned long long)d->beyond,
-                                    d->beyond == 1 ? "" : "s", t->max));
+    const double count = t->percent ? percent : (double)d->beyond;
+    char *over = over_text(t);
+    text = with_part(text, say_text("%.*g%s%s", t->percent ? 6 : 12, count, pixels_word(t, count), over));
+    free(over);
+    return text;
 }
 
 char *golden_beyond_text(const struct golden_case *c) {

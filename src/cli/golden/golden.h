@@ -64,7 +64,7 @@ void golden_case_free(struct golden_case *c);
 /* What of the inputs is that of the golden. */
 struct monge_causes golden_causes(const struct golden_case *c);
 
-/* "at most 0.1% of the pixels by over 0.004, flip at most 0.01". To be freed. */
+/* "at most 0.1% of the pixels by over 0.004, flip at most 0.01"; "at most 5 pixels" may differ. To be freed. */
 char *golden_tolerance_text(const struct monge_tolerance *tolerance);
 
 /* "psnr 72.1, flip 0.021": what of the difference is beyond the tolerance of the case. To be freed; NULL: it has none, or is

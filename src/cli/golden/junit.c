@@ -68,18 +68,20 @@ static void put_failure(FILE *out, const struct golden_case *c) {
     free(message);
 }
 
-/* A picture that is the same but for a tolerance passes, and says so. */
-static void put_detail(FILE *out, const struct golden_case *c) {
-    char *detail = golden_detail(c);
+/* A picture that is the same but for a tolerance, or is the golden now, passes and says so. */
+static void put_pass(FILE *out, const struct golden_case *c) {
+    char *text = c->taken ? say_text("%s, and %s", GOLDEN_STATUS[c->status], GOLDEN_TAKEN) : golden_detail(c);
     fputs("      <system-out>", out);
-    put_text(out, detail ? detail : "");
+    put_text(out, text ? text : "");
     fputs("</system-out>\n", out);
-    free(detail);
+    free(text);
 }
+
+static bool has_failed(const struct golden_case *c) { return c->status != GOLDEN_SAME && !c->taken; }
 
 /* The folder of the scene is its class. */
 static void put_case(FILE *out, const struct golden_case *c) {
-    const bool empty = c->status == GOLDEN_SAME && !c->unchanged && !c->within;
+    const bool empty = !has_failed(c) && !c->unchanged && !c->within && !c->taken;
     const char *slash = strrchr(c->name, '/');
     char *folder = slash ? say_text("%.*s", (int)(slash - c->name), c->name) : say_text("scenes");
     fputs("    <testcase", out);
@@ -88,8 +90,8 @@ static void put_case(FILE *out, const struct golden_case *c) {
     if (c->scene) put_attribute(out, "file", c->scene);
     fprintf(out, " time=\"%.3f\"%s>\n", c->seconds, empty ? "/" : "");
     if (c->unchanged) fputs("      <skipped message=\"unchanged\"/>\n", out);
-    if (c->status != GOLDEN_SAME) put_failure(out, c);
-    if (c->within) put_detail(out, c);
+    if (has_failed(c)) put_failure(out, c);
+    if (c->within || c->taken) put_pass(out, c);
     if (!empty) fputs("    </testcase>\n", out);
     free(folder);
 }
@@ -103,15 +105,17 @@ static void put_interruption(FILE *out, const char *interruption) {
 
 char *golden_junit_text(const struct golden_results *results) {
     char *text = NULL;
-    size_t size = 0, skipped = 0;
+    size_t size = 0, skipped = 0, failed = 0;
     char *interruption = golden_interruption(results);
     const size_t broken = golden_count(results, GOLDEN_BROKEN), more = interruption ? 1 : 0;
-    const size_t failures = results->count - golden_count(results, GOLDEN_SAME) - broken;
     FILE *out = say_text_begin(&text, &size);
-    for (size_t i = 0; i < results->count; i++) skipped += results->cases[i].unchanged;
+    for (size_t i = 0; i < results->count; i++) {
+        skipped += results->cases[i].unchanged;
+        failed += has_failed(&results->cases[i]);
+    }
     fputs("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n  <testsuite name=\"monge test\"", out);
     fprintf(out, " tests=\"%zu\" failures=\"%zu\" errors=\"%zu\" skipped=\"%zu\" time=\"%.3f\">\n",
-            results->count + more, failures, broken + more, skipped, results->seconds);
+            results->count + more, failed - broken, broken + more, skipped, results->seconds);
     for (size_t i = 0; i < results->count; i++) put_case(out, &results->cases[i]);
     if (interruption) put_interruption(out, interruption);
     fputs("  </testsuite>\n</testsuites>\n", out);

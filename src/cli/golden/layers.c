@@ -55,9 +55,11 @@ static void compare_hashes(struct golden_case *c) {
     }
     if (!all || c->now.width != c->old.width || c->now.height != c->old.height) return;
     const bool shadow = strcmp(c->old.layers[GOLDEN_LAYERS - 1], c->now.layers[GOLDEN_LAYERS - 1]) == 0;
-    add_change(c, say_text("%s", !geometry ? "geometry changed"
-                                 : !shadow ? "shadow changed, geometry equal"
-                                           : "shading changed, geometry and shadow equal"));
+    add_change(c,
+               say_text("%s", !geometry                    ? "geometry changed"
+                              : !shadow                    ? "shadow changed, geometry equal"
+                              : c->now.bits != c->old.bits ? "geometry and shadow equal"
+                                                           : "shading changed, geometry and shadow equal"));
 }
 
 /* ---- The passes of the case ---- */

@@ -31,10 +31,20 @@ static bool keeps_out(const struct golden_run *run, const char *option, const ch
 static bool part_keeps_out(const struct golden_run *run, const char *part) {
     char *path = path_below(run->output, part, "");
     const bool good = !is_within(run->folder, path) && !is_within(path, run->folder);
-    if (!good)
-        say_error("--output %s would write into the folder of the goldens, %s", run->output, run->folder);
     free(path);
     return good;
+}
+
+static bool output_keeps_out(const struct golden_run *run, bool given) {
+    if (!is_within(run->output, run->folder) && part_keeps_out(run, "new") && part_keeps_out(run, "old"))
+        return true;
+    if (given)
+        say_error("--output %s would write into the folder of the goldens, %s", run->output, run->folder);
+    else
+        say_error("the run would write into the folder of the goldens, %s, as its own is %s: --output names "
+                  "another",
+                  run->folder, run->output);
+    return false;
 }
 
 /* ---- Files ---- */
@@ -61,6 +71,10 @@ static bool has_ending_of_input(const char *path) {
 
 static bool spares_inputs(const struct golden_run *run, const struct target *target) {
     if (!is_file_target(target)) return true;
+    if (path_is_folder(target->path)) {
+        say_error("--%s %s: it is a folder", target->option, target->path);
+        return false;
+    }
     if (!keeps_out(run, target->option, target->path)) return false;
     for (size_t i = 0; i < run->count; i++)
         if (path_is_same(run->scenes[i].path, target->path)) {
@@ -68,7 +82,7 @@ static bool spares_inputs(const struct golden_run *run, const struct target *tar
             return false;
         }
     if (!has_ending_of_input(target->path)) return true;
-    say_error("--%s %s: it is called as scenes or goldens are, and would be none", target->option,
+    say_error("--%s %s: the name ends as those of scenes and goldens do: choose another", target->option,
               target->path);
     return false;
 }
@@ -101,7 +115,7 @@ static bool check_files(const struct golden_run *run, const struct option_value 
 
 bool golden_check_targets(const struct golden_run *run, const struct option_value *option) {
     const char *report = option[OPTION_REPORT].text;
-    return keeps_out(run, "output", run->output) && part_keeps_out(run, "new") &&
-           part_keeps_out(run, "old") && (!report || keeps_out(run, "report", report)) &&
-           check_files(run, option);
+    return golden_check_output("output", run->output) && (!report || golden_check_output("report", report)) &&
+           output_keeps_out(run, option[OPTION_TEST_OUTPUT].given) &&
+           (!report || keeps_out(run, "report", report)) && check_files(run, option);
 }

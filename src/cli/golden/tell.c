@@ -7,6 +7,8 @@
 
 /* ---- What there is to say ---- */
 
+const char GOLDEN_TAKEN[] = "taken: the new picture is its golden now";
+
 static char *same_detail(const struct golden_case *c) {
     if (c->unchanged) return say_text("unchanged");
     if (!c->within) return NULL;
@@ -44,6 +46,13 @@ static void print_field(FILE *out, const char *key, const char *text, const char
     if (text) say_line(out, "%s%s%s", before, key, text);
 }
 
+/* With a control character in a name it would be printed as another command: results.json alone has it then. */
+static void print_command(FILE *out, const char *key, const char *command, const char *before) {
+    for (const char *c = command; c && *c; c++)
+        if ((unsigned char)*c < 0x20 || *c == 0x7f) return;
+    print_field(out, key, command, before);
+}
+
 /* All but golden_detail, each line with `before` ahead of it. */
 static void print_details(FILE *out, const struct golden_case *c, const char *before) {
     if (c->message) print_lines(out, c->message, before);
@@ -58,8 +67,9 @@ static void print_details(FILE *out, const struct golden_case *c, const char *be
     print_field(out, "beyond: ", beyond, before);
     free(beyond);
     print_field(out, "new: ", c->new_path, before);
-    print_field(out, "again: ", c->command, before);
-    print_field(out, "old: ", c->old_command, before);
+    print_command(out, "again: ", c->command, before);
+    print_command(out, "old: ", c->old_command, before);
+    if (c->taken) say_line(out, "%s%s", before, GOLDEN_TAKEN);
 }
 
 char *golden_details(const struct golden_case *c) {
@@ -105,10 +115,12 @@ static void put_block(FILE *to, const struct golden_case *c) {
 }
 
 static void tell_tap(const struct golden_teller *teller, const struct golden_case *c) {
-    fprintf(teller->out, "%sok %zu - ", c->status == GOLDEN_SAME ? "" : "not ", teller->told);
+    const bool good = c->status == GOLDEN_SAME || c->taken;
+    fprintf(teller->out, "%sok %zu - ", good ? "" : "not ", teller->told);
     put_description(teller->out, c->name);
     fprintf(teller->out, "%s\n", c->unchanged ? " # SKIP unchanged" : "");
-    if (c->status != GOLDEN_SAME) put_block(teller->out, c);
+    if (!good) put_block(teller->out, c);
+    if (c->taken) fprintf(teller->out, "# %s, and %s\n", GOLDEN_STATUS[c->status], GOLDEN_TAKEN);
     char *detail = c->within ? golden_detail(c) : NULL;
     if (detail) say_line(teller->out, "# %s", detail);
     free(detail);

@@ -25,6 +25,9 @@ char *golden_detail(const struct golden_case *c);
 /* All the rest, perhaps many lines. To be freed. */
 char *golden_details(const struct golden_case *c);
 
+/* What is said of one that is taken. */
+extern const char GOLDEN_TAKEN[];
+
 /* The results as JUnit has them, XML. To be freed. */
 char *golden_junit_text(const struct golden_results *results);
 

@@ -8,6 +8,7 @@
 
 #include "cli/batch.h"
 #include "cli/clock.h"
+#include "cli/golden/claims.h"
 #include "cli/golden/files.h"
 #include "cli/golden/folder.h"
 #include "cli/golden/orphans.h"
@@ -18,7 +19,9 @@
 #include "cli/golden/tell.h"
 #include "cli/interrupt.h"
 #include "cli/paths.h"
+#include "cli/pattern.h"
 #include "cli/say.h"
+#include "cli/scene_path.h"
 #include "cli/words.h"
 
 /* A run, what has become of it, and how it is told. */
@@ -71,6 +74,18 @@ static int compare_scenes(const void *a, const void *b) {
     return order ? order : p < q ? -1 : p > q;
 }
 
+/* Only an extension tells a.yaml from a.yml, and no root has that in the name. */
+static void say_same_name(const struct golden_scene *a, const struct golden_scene *b) {
+    char *place = scene_place(a->path), *other = scene_place(b->path);
+    char *name = scene_name(place ? place : a->path), *other_name = scene_name(other ? other : b->path);
+    say_error("%s and %s would have the same golden, %s: %s", a->path, b->path, a->name,
+              strcmp(name, other_name) == 0 ? "rename one of them" : "give --root, or golden.yaml a `root`");
+    free(other_name);
+    free(name);
+    free(other);
+    free(place);
+}
+
 /* A scene that is named twice counts once; two scenes of one name are wrong. */
 static bool check_scenes(struct golden_run *run) {
     struct golden_scene **sorted = calloc(run->count + 1, sizeof *sorted);
@@ -82,9 +97,7 @@ static bool check_scenes(struct golden_run *run) {
         if (strcmp(sorted[i - 1]->name, sorted[i]->name) != 0) continue;
         good = strcmp(sorted[i - 1]->path, sorted[i]->path) == 0 ||
                path_is_same(sorted[i - 1]->path, sorted[i]->path);
-        if (!good)
-            say_error("%s and %s would have the same golden, %s: give --root, or golden.yaml a `root`",
-                      sorted[i - 1]->path, sorted[i]->path, sorted[i]->name);
+        if (!good) say_same_name(sorted[i - 1], sorted[i]);
         sorted[i]->path = sorted[i - 1]->path;
         sorted[i - 1]->path = NULL;
     }
@@ -98,6 +111,31 @@ static bool check_scenes(struct golden_run *run) {
             free(run->scenes[i].name);
     run->count = kept;
     return true;
+}
+
+/* Before frames are known, of which there may be none. */
+static void claim_scene(struct golden_claims *claims, const struct golden_scene *scene) {
+    const struct sweep *sweep = &scene->rule->loader.sweep;
+    struct monge_define *defines = calloc(sweep->count + 1, sizeof *defines);
+    if (!defines) say_no_memory();
+    for (size_t i = 0; i < sweep->total; i++) {
+        sweep_combination(sweep, i, defines);
+        const struct pattern_values values = {
+            .name = scene->name, .defines = defines, .define_count = sweep->count};
+        char *name = pattern_usual(sweep, &values);
+        golden_claims_add(claims, name, scene->rule->rule->aov, scene->path);
+        free(name);
+    }
+    free(defines);
+}
+
+static bool check_files(const struct golden_run *run) {
+    struct golden_claims claims = {0};
+    for (size_t i = 0; i < run->count; i++)
+        if (!run->scenes[i].rule->args.option[OPTION_FRAMES].given) claim_scene(&claims, &run->scenes[i]);
+    const bool good = golden_claims_check(&claims);
+    golden_claims_free(&claims);
+    return good;
 }
 
 static void say_unread(const struct golden_run *run, const char *path) {
@@ -125,7 +163,7 @@ static bool name_scenes(struct golden_run *run) {
             say_error("%s: it is not below `root`, %s", found->all[i].path, run->settings.root);
         run->loader.scenes.status = STATUS_TROUBLE;
     }
-    return run->scenes && check_scenes(run);
+    return run->scenes && check_scenes(run) && check_files(run);
 }
 
 /* Whether the operands may tell all scenes: each is a folder, and was read. */
@@ -191,14 +229,19 @@ static bool run_scene(void *context, size_t index) {
     return true;
 }
 
+/* Whether it is told at the end alone: what is new, or when it is known whether it is taken. */
+static bool is_held(const struct test *test, const struct golden_case *c) {
+    return (test->holds_new && c->status == GOLDEN_NEW) ||
+           (wants(test, OPTION_UPDATE_ONLY_FAILED) && golden_can_take(c));
+}
+
 static void end_scene(void *context, size_t index, const char *said) {
     struct test *test = context;
     const struct golden_scene *scene = &test->run.scenes[index];
     progress_hide(&test->run.progress);
     fputs(said, stderr);
     for (size_t i = 0; i < scene->count; i++)
-        if (!test->holds_new || scene->cases[i].status != GOLDEN_NEW)
-            golden_tell(&test->teller, &scene->cases[i]);
+        if (!is_held(test, &scene->cases[i])) golden_tell(&test->teller, &scene->cases[i]);
 }
 
 /* Whether there are goldens of which the run may find out that they are orphans. */
@@ -210,11 +253,11 @@ static bool may_find_orphans(const struct test *test) {
     return any;
 }
 
-/* What the run has not told: what is new, if that is held, and orphans. */
+/* What the run has not told: what is held, and orphans. */
 static void tell_rest(struct test *test, size_t first_orphan) {
     const struct golden_results *results = &test->results;
-    for (size_t i = test->holds_new ? 0 : first_orphan; i < results->count; i++)
-        if (i >= first_orphan || results->cases[i].status == GOLDEN_NEW)
+    for (size_t i = 0; i < results->count; i++)
+        if (i >= first_orphan || is_held(test, &results->cases[i]))
             golden_tell(&test->teller, &results->cases[i]);
 }
 
@@ -232,27 +275,14 @@ static bool gather(struct test *test) {
     return cases;
 }
 
-static int compare_cases(const void *a, const void *b) {
-    const struct golden_case *p = *(const struct golden_case *const *)a,
-                             *q = *(const struct golden_case *const *)b;
-    const int order = strcmp(p->name, q->name);
-    return order ? order : p < q ? -1 : p > q;
-}
-
-/* Names that frames and parameters make may be those of other scenes. */
+/* With frames, of which the scenes alone know how many there are. */
 static bool check_names(const struct golden_case *cases, size_t count) {
-    const struct golden_case **sorted = calloc(count + 1, sizeof *sorted);
-    bool good = sorted != NULL;
-    if (!good) say_error("out of memory");
-    for (size_t i = 0; good && i < count; i++) sorted[i] = &cases[i];
-    if (good && count > 1) qsort(sorted, count, sizeof *sorted, compare_cases);
-    for (size_t i = 1; good && i < count; i++) {
-        good = strcmp(sorted[i - 1]->name, sorted[i]->name) != 0;
-        if (!good)
-            say_error("%s and %s have the same golden, %s", sorted[i - 1]->scene, sorted[i]->scene,
-                      sorted[i]->name);
-    }
-    free(sorted);
+    struct golden_claims claims = {0};
+    for (size_t i = 0; i < count; i++)
+        golden_claims_add(&claims, cases[i].name, cases[i].aov && cases[i].status != GOLDEN_BROKEN,
+                          cases[i].scene);
+    const bool good = golden_claims_check(&claims);
+    golden_claims_free(&claims);
     return good;
 }
 
@@ -261,22 +291,30 @@ static bool take_new(struct test *test) {
     golden_hold(run->folder); /* others may have written the lock during the run */
     golden_lock_free(&run->lock);
     if (!golden_lock_read(&run->lock, run->folder)) return false;
-    size_t taken = 0, wanted = 0;
+    size_t taken = 0;
     bool good = true;
     for (size_t i = 0; i < test->results.count; i++) {
         struct golden_case *c = &test->results.cases[i];
         if (!golden_can_take(c)) continue;
-        wanted++;
         if (golden_is_as_noted(run->folder, &run->lock, c))
             good &= c->taken = golden_take(run->folder, &run->lock, c);
         else
             say_error("%s is left as it is: its golden has changed during the run", c->name);
         taken += c->taken;
     }
-    if (taken > 0 && !golden_lock_write(&run->lock)) return false;
-    if (wanted > 0 && !test->teller.tap && !test->teller.quiet)
-        fprintf(test->teller.out, "%zu of %zu new pictures are goldens now\n", taken, wanted);
-    return good;
+    if (taken == 0 || golden_lock_write(&run->lock)) return good;
+    for (size_t i = 0; i < test->results.count; i++)
+        test->results.cases[i].taken &= test->results.cases[i].kind == MONGE_GOLDEN_PNG;
+    return false;
+}
+
+static void mention_taken(const struct test *test) {
+    size_t taken = 0, wanted = 0;
+    for (size_t i = 0; i < test->results.count; i++) {
+        wanted += golden_can_take(&test->results.cases[i]);
+        taken += test->results.cases[i].taken;
+    }
+    if (wanted > 0) fprintf(test->teller.out, "%zu of %zu new pictures are goldens now\n", taken, wanted);
 }
 
 /* ---- What it comes to ---- */
@@ -382,14 +420,17 @@ static enum status run_test(struct test *test) {
     if (all) find_places(test);
     const bool whole = all && golden_looks_for_orphans(run, &test->results);
     if (whole) golden_find_orphans(run, &test->results);
+    const bool named = check_names(test->results.cases, first_orphan),
+               takes = named && all && wants(test, OPTION_UPDATE_ONLY_FAILED);
+    bool good = !takes || take_new(test);
     tell_rest(test, first_orphan);
     test->results.seconds = clock_seconds() - test->begun;
     golden_tell_end(&test->teller, &test->results);
     if (whole && test->results.elsewhere == 0) golden_warn_of_unused(run);
-    if (!check_names(test->results.cases, first_orphan)) return STATUS_TROUBLE;
-    bool good = !all || !wants(test, OPTION_UPDATE_ONLY_FAILED) || take_new(test);
+    if (!named) return STATUS_TROUBLE;
     good &= golden_files_write(&test->results, run->output, test->args.option);
     if (!test->teller.tap && !test->teller.quiet) {
+        if (takes) mention_taken(test);
         mention_pictures(test);
         mention_passes(test);
         mention_elsewhere(test);
@@ -477,6 +518,7 @@ static void end(struct test *test) {
 
 enum status test_command(const struct arguments *args) {
     struct test test = {.args = *args, .begun = clock_seconds()};
+    streams_outlive_readers();
     const bool begun = begin(&test, args); /* here a signal may still end the program at once */
     interrupt_defer();
     const enum status status = begun ? run_test(&test) : STATUS_TROUBLE;
