@@ -112,6 +112,11 @@ for twice in 'check - @-' 'info - -' 'fmt --check @- -' 'render - - -o twice/ --
     last=$twice; "$monge" $twice <s/a.yaml >out 2>err; status=$?
     ok "standard input twice" [ $status -eq 2 ]; err_has 'standard input can be only one'; no_out; missing twice twice.json twice.log
 done
+cp list list.before; ln list list.hard; ln -s list list.soft
+for option in --stats --log; do for over in list ./list list.hard list.soft; do
+    exits 2 render s/a.yaml @list "${small[@]}" -o l/ $option $over; err_has "list would be written over by the output of $option"; same list list.before; missing l
+done; done
+mkdir l; cp list l/a.png; exits 2 render @l/a.png "${small[@]}" -o l/; err_has 'l/a.png would be written over by the output of s/a.yaml'; same l/a.png list; rm -r l list.*
 exits 2 render @ -o l/; err_has 'error[no-match]: @: a list has a name, or is @-, standard input'; missing l
 exits 0 render s/a.yaml -q "${small[@]}" -o picture.png; exits 2 render @picture.png -o l/; missing l
 ok "a picture is no list" [ "$(cat err)" = 'monge: error[no-match]: picture.png: this is a picture, and no list of scenes' ]; rm picture.png

@@ -275,7 +275,7 @@ rm -f one.png two.png x.png
 exits 2 render one.yaml two.yml -o x.png; err_has '-o x.png is one file for 2 scenes'; missing x.png
 exits 2 render a/one.yaml b/one.yaml; err_has 'a/one.yaml and b/one.yaml would both write'; err_has 'one.png; with --root DIR they keep their folders'; missing one.png
 ln -s . link
-exits 2 render one.yaml two.yml -o 'link/{name}.png' --stats one.png; err_has 'would both write'; missing one.png
+exits 2 render one.yaml --stats x.json --log link/x.json; err_has 'would both write'; missing one.png x.json
 cp two.yml new.yml; for name in one.yaml new.yml none.YAML notes.txt; do
     exits 2 render one.yaml -o $name; err_has "-o $name: pictures are PNG; did you mean ${name%.*}.png?"
 done
@@ -283,11 +283,14 @@ ok "the other scene is whole" cmp new.yml two.yml; missing none.YAML notes.txt; 
 for option in stats:json log:log; do
     exits 2 render one.yaml -q --${option%:*} two.yml; err_has "--${option%:*} two.yml is called like a scene; did you mean two.${option#*:}?"
     ok "the other scene is whole" grep -q scene two.yml
+    exits 2 render one.yaml -q --${option%:*} none.PNG; err_has "--${option%:*} none.PNG is called like a picture; did you mean none.${option#*:}?"; missing none.PNG
 done
 exits 2 render one.yaml two.yml -o link/one.yaml; err_has 'is one file'
 ln -s one.yaml alias.png
 exits 2 render one.yaml -o alias.png; err_has 'one.yaml would be written over'
-exits 2 render one.yaml --stats link/alias.png; err_has 'one.yaml would be written over by the output of --stats'
+ln one.yaml hard.json; for option in --stats --log; do
+    exits 2 render one.yaml $option link/hard.json; err_has "one.yaml would be written over by the output of $option"
+done
 ok "the scene is whole" cmp one.yaml a/one.yaml
 
 for name in x.jpg x.JPEG none/y.gif; do exits 2 render one.yaml -o $name; err_has "-o $name: pictures are PNG; did you mean ${name%.*}.png?"; missing $name; done
@@ -364,7 +367,7 @@ exits 2 render - --aov depth; err_has 'give -o FILE'
 cp one.yaml clash.yaml; cp one.yaml clash.object.yaml; rm -f clash*.png
 exits 2 render clash.yaml clash.object.yaml --aov object; err_has 'would both write'; err_has 'clash.object.png'; missing clash.png
 exits 0 render clash.yaml clash.object.yaml "${small[@]}" -q --aov depth; is_png clash.object.png
-exits 2 render clash.yaml --aov object --stats clash.object.png; err_has 'would both write'
+exits 2 render clash.yaml --aov depth --stats clash.depth.pfm; err_has 'would both write'
 cp one.yaml clash.depth.pfm
 exits 2 render clash.depth.pfm --aov depth -o clash.png; err_has 'clash.depth.pfm would be written over'
 mkdir clash.normal.png

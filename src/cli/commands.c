@@ -224,6 +224,9 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                  "which point lights reach it there. " IN_DOCUMENTS(
                      "manual.md") " tells what is in the files.",
                  "-o - is standard output.",
+                 "--stats and --log take no name of a scene or a picture (.yaml, .yml, .png), nor of a list "
+                 "of "
+                 "the run; what scenes include under other names is not known to them.",
                  "--jobs scenes are rendered at once, each on --threads threads; messages, --log and "
                  "--stats keep the order of the batch, and of more than one picture a line at the end counts "
                  "what has become of them; what was asked for and is not there has failed. What fails does "

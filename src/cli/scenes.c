@@ -232,6 +232,12 @@ static bool is_picture(const struct monge_text *text) {
     return text->size >= 8 && memcmp(text->bytes, "\x89PNG\r\n\x1a\n", 8) == 0;
 }
 
+static void note_list(struct scenes *scenes, const char *path) {
+    scenes->lists = realloc(scenes->lists, (scenes->list_count + 1) * sizeof *scenes->lists);
+    if (!scenes->lists) say_no_memory();
+    scenes->lists[scenes->list_count++] = say_text("%s", path);
+}
+
 static void add_list(struct search *search, const char *path) {
     struct monge_text text = {NULL, 0};
     if (!*path)
@@ -240,6 +246,7 @@ static void add_list(struct search *search, const char *path) {
         report_trouble(search, path, "this is a picture, and no list of scenes");
     else if (text.bytes)
         add_entries(search, &text, path);
+    if (text.bytes) note_list(search->scenes, path);
     monge_text_free(&text);
 }
 
@@ -437,6 +444,8 @@ void scenes_free(struct scenes *scenes) {
         free(scenes->all[i].name);
     }
     for (size_t i = 0; i < scenes->missing; i++) free(scenes->lost[i]);
+    for (size_t i = 0; i < scenes->list_count; i++) free(scenes->lists[i]);
+    free(scenes->lists);
     free(scenes->lost);
     free(scenes->all);
     monge_text_free(&scenes->input);

@@ -29,6 +29,8 @@ struct scenes {
     size_t count;
     struct monge_text input; /* the scene on standard input; without bytes where there is none */
     enum status status;      /* STATUS_TROUBLE: some operand stands for nothing; the reason has been told */
+    char **lists;            /* owned: the files that lists of scenes were read from, */
+    size_t list_count;       /* so many */
     char **lost;             /* owned: such operands, lines of lists and folders, */
     size_t missing;          /* so many */
     bool several;            /* some operand may stand for several: a folder, a pattern, a list */
