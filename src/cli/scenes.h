@@ -6,7 +6,7 @@
  *     'k[1-3]*.yaml'  a pattern that the shell has left alone; `**` in it, as the name of a folder, stands for any
  *                     folders, or none; empty files, pipes and devices are left out, as in folders
  *     @list, @-       a file, or standard input, with one of these a line; # begins a comment. Where it has a NUL,
- *                     what is between NULs is a name as it stands
+ *                     what is between NULs is a name as it stands; UTF-16 is refused
  *     -               standard input: a list where each entry is a path, else a scene
  *
  * A scene is called by its file name without .yaml or .yml; with the folders between, as "gallery/chess", from a folder
