@@ -482,6 +482,16 @@ for row in 'TERM 143' 'HUP 129'; do
     ok "statistics of what is done" [ "$(grep -c '"status": ' cut.json)" -eq 1 ]
 done
 stopped TERM --resume; ok "with --resume" [ "$(tail -n 1 err)" = 'interrupted: 1 of 3 rendered; the same command goes on' ]
+for i in $(seq 11 21); do echo 'scene: [{sphere: {raduis: 1}}]' >broken-$i.yaml; done; rm -f cut.log
+last='render of broken scenes (signal TERM)'; "$monge" render broken-*.yaml long.yaml -j 1 "${long[@]}" -o stopped/ --log cut.log 2>err & pid=$!
+await '[ "$(wc -l <cut.log)" -eq 11 ]'; sleep 0.1; kill -TERM $pid; { wait $pid; } 2>/dev/null
+ok "what has failed is listed" [ "$(tail -n 12 err | head -n 1)" = 'failed stopped/broken-11.png  from broken-11.yaml' -a "$(grep -c '^failed stopped/broken-' err)" -eq 11 ]
+ok "before what is done" [ "$(tail -n 1 err)" = 'interrupted: 0 of 12 rendered, 11 failed' ]; rm broken-*
+mkfifo waits.yaml; last='render of a pipe that nobody writes to (signal TERM)'; rm -rf stopped cut.log
+"$monge" render probe.yaml waits.yaml stop-1.yaml -j 1 -o stopped/ --log cut.log 2>err & pid=$!
+await '[ -s cut.log ]'; sleep 0.3; kill -TERM $pid; { wait $pid; } 2>/dev/null; status=$?
+ok "the signal ends the reading" [ $status -eq 143 -a "$(wc -l <cut.log)" -eq 1 ]; err_lacks error
+ok "which is no failure" [ "$(tail -n 1 err)" = 'interrupted: 1 of 3 rendered; the same command with --resume goes on' ]; rm waits.yaml
 last='render (two signals at once)'; rm -rf stopped cut.log
 if have perl; then # as some programs send them
     AND=TERM signalled INT 'sleep 0.2' render long.yaml -j 1 "${long[@]}" --samples 60000 -o stopped/ --resume

@@ -302,6 +302,7 @@ static const char *way_on(const struct work *work) {
 
 static void tell_interrupted(const struct work *work) {
     if (work_wants(work, OPTION_QUIET)) return;
+    if (count_pictures(work) > FEW) list_failures(work);
     char *others = count_others(work);
     say_note("interrupted: %zu of %zu rendered%s%s", work->outcomes[PICTURE_RENDERED],
              work->progress.pictures, others, way_on(work));
