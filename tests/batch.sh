@@ -273,6 +273,11 @@ assert log[4]["error"] == {"code": "unknown-key", "message": "a sphere has no ke
 assert len({p["started"] for p in log}) == 1 and re.fullmatch(r"20\d\d-\d\d-\d\dT\d\d:\d\d:\d\d\.\d{3}Z", log[0]["started"])
 PYTHON
 else left_out "progress and log: no python3"; fi
+exits 0 render 02.yaml 03.yaml -j 1 -o bar/ --progress json "${small[@]}" # of one tile each
+ok "a line as the first picture begins" [ "$(head -n 1 err | grep -c '"done": 0, "total": 2, .*"part": 0.0000, .*"running": \[{"scene": "02.yaml", "output": "bar/02.png", "pixels": 0, ')" -eq 1 ]
+last='render --progress json of a pipe'; mkfifo pipe.yaml; "$monge" render pipe.yaml 02.yaml -j 1 -o bar/ --progress json "${small[@]}" 2>err & pid=$!
+await 'grep -q "\"part\": 0.0000.*\"running\": \[\]" err'; ok "lines while a scene is read" grep -q '"done": 0, "total": 2' err
+cat 02.yaml >pipe.yaml; wait $pid; rm pipe.yaml bar/pipe.png
 patient '1 of 2 pictures  03  [' 0[1-3].yaml -j 1 -o bar/ --size 400x300 --progress always
 cd ..
 
