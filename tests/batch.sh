@@ -326,6 +326,9 @@ exits 0 render [1-6].yaml -q --resume --log log; missing .log.waiting
 ok "the next run has them first" [ "$(grep -o '"scene": "[^"]*", "output": "[^"]*", "status": "[a-z]*"' log | grep -n . | sed -n '1p;6p;7p;12p' | cut -d'"' -f1,4,12 | tr -d '"' | tr '\n' ' ')" = '1:./1.yamlrendered 6:./6.yamlrendered 7:1.yamlunchanged 12:6.yamlunchanged ' ]
 hashes() { grep "$1" log | grep -o '"width".*"height": [0-9]*\|"program.*' | sed 's/, "samples.*//; s/}$//'; }
 ok "what is unchanged has its hashes" [ "$(hashes rendered)" = "$(hashes unchanged)" -a -n "$(hashes unchanged)" ]
+"$monge" render 1.yaml "${small[@]}" -q --log pids & first=$!; "$monge" render 2.yaml 3.yaml "${small[@]}" -q --log pids & second=$!
+wait $first $second; last='two runs at once with one log'
+ok "each has its process" [ "$(grep -o '"pid": [0-9]*' pids | sort | uniq -c | awk '{ print $3, $1 }' | sort)" = "$(printf '%s\n' "$first 1" "$second 2" | sort)" ]
 ok "two runs" [ "$(grep -o '"started": "[^"]*"' log | sort -u | wc -l)" -eq 2 ]
 cd ..
 

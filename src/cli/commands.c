@@ -258,7 +258,8 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                  "frame, pixels, of_pixels; --quiet is implied.",
                  "--log adds a line for each picture to a file, in the order of the batch: started (when the "
                  "run "
-                 "began), scene, output, frame, params, status (rendered, unchanged, failed), error (of a "
+                 "began), pid (its process), scene, output, frame, params, status (rendered, unchanged, "
+                 "failed), error (of a "
                  "failed "
                  "one: code, message, file, line, column), and what --stats has, with hashes. Lines whose "
                  "turn has "
