@@ -241,7 +241,13 @@ exits 0 render "${small[@]}" a/one.yaml -o deep/er/; is_png deep/er/one.png
 exits 0 render "${small[@]}" one.yaml -o deep; is_png deep/one.png
 exits 0 render "${small[@]}" one.yaml two.yml -o 'p-{name}.png'; is_png p-one.png; is_png p-two.png
 exits 0 render "${small[@]}" one.yaml two.yml -o 'q/{name}/'; is_png q/one/one.png; is_png q/two/two.png
-exits 2 render one.yaml -o '{nmae}.png'; err_has '-o: expected {name}, found `{nmae}`; did you mean {name}?'
+exits 2 render one.yaml -o 'x/{nope}.png'; err_has '-o: expected {name}, {frame} with --frames, {NAME} with -D NAME=VALUE, found `{nope}`'
+exits 2 render one.yaml -o 'x/{nope}.png' --frames all -D a=1; err_has '-o: expected {name}, {frame}, {a}, found `{nope}`'
+for word in -dash.yaml -king.yml -z.png; do
+    exits 2 render $word; ok "$word is a file" grep -qx "monge: no option \`-[diz]\`; a file of that name is ./$word" err
+done
+exits 2 render -z; ok 'a letter is none' [ "$(head -n 1 err)" = 'monge: no option `-z`' ]
+exits 2 render one.yaml -o '{nmae}.png'; err_has 'found `{nmae}`; did you mean {name}?'
 [ -e null ] && exits 0 render "${small[@]}" one.yaml two.yml -o null --stats null && ok "it stays a device" [ -c null ]
 exits 0 render "${small[@]}" --region 4,3,5,2 one.yaml -o region.png; png_size region.png 5 2
 exits 0 render "${small[@]}" one.yaml --bits 16 --encoding linear -o bits.png
@@ -456,9 +462,9 @@ exits 2 render params.yaml -D a=1,2 -D b=1,2 -o 'x{a}.png'
 err_has 'params.yaml with a=1, b=1 and params.yaml with a=1, b=2 would both write'; err_has "write -o 'x{a}-{b}.png'"; missing x1.png
 exits 2 render params.yaml -D a=1,1; err_has 'would both write'
 exits 2 render params.yaml one.yaml -D a=1,2 -o '{a}.png'; err_has "write -o '{a}-{name}.png'"
-exits 2 render params.yaml -D a=1,2 -o '{a}{c}.png'; err_has '-o: expected {name}, {a}, found `{c}`'
+exits 2 render params.yaml -D a=1,2 -o '{a}{c}.png'; err_has '-o: expected {name}, {frame} with --frames, {a}, found `{c}`'
 exits 2 render params.yaml -D tint=red,gold -o '{tnit}.png'; err_has 'did you mean {tint}?'
-exits 2 render params.yaml -o '{a}.png'; err_has '-D NAME=VALUE makes a {NAME}'
+exits 2 render params.yaml -o '{a}.png'; err_has '{NAME} with -D NAME=VALUE, found `{a}`'
 exits 2 render params.yaml -o '{a'; err_has 'found `{a`'
 last='render - -D a=1,2 <params.yaml'
 "$monge" render -q "${small[@]}" - -D a=1,2 -o 's{a}.png' <params.yaml >out 2>err; status=$?
@@ -514,6 +520,10 @@ done
 for bad in 0 0-3 3-2 -3 x 1-x 1:0 1: all: 1-2-3 '' 1000001 allx; do
     exits 2 render view.yaml --frames "$bad"; err_has "--frames: expected N, A-B, A- or all, perhaps with :STEP, from 1, found \`$bad\`"
 done
+for row in '2-13 2-' '3-13:2 3-:2'; do
+    exits 2 render view.yaml --frames "${row% *}"; err_has "has 12 frames; ${row#* } goes to the last"
+done
+for bad in 13 13-14; do exits 2 render view.yaml --frames $bad; err_lacks 'goes to'; done
 for bad in 13 12-13 13- 13-14; do exits 2 render view.yaml --frames $bad; err_has "error[no-frame]: --frames $bad: view.yaml has 12 frames"; done
 for asked in 1 1-3 2-; do
     exits 2 render one.yaml --frames $asked; err_has "--frames $asked: one.yaml"; err_has 'one.yaml has no animation; `animation: {frames: 48}` makes one'
