@@ -245,6 +245,17 @@ for i in 1 2 3 4; do cp 06.yaml more-$i.yaml; done
 exits 1 render . -o lots/ "${small[@]}"; ok "failures, then counts" [ "$(tail -n 2 err)" = "$(printf 'failed lots/05-wrong.png  from ./05-wrong.yaml\n11 rendered, 1 failed')" ]
 exits 1 render . -j 4 -o doc/ "${small[@]}" --format json
 if have python3; then ok "a document alone" python3 -c 'import json; assert json.load(open("err"))[0]["code"] == "unknown-key"'; fi
+cp 05-wrong.yaml 09-wrong.yaml; echo 'scene: [' >10-wrong.yaml
+for format in json sarif; do # in the order of the batch, whatever ends first
+    for jobs in 1 4; do run render . gone.yaml -j $jobs -o doc/ "${small[@]}" --format $format; ok "exit 2" [ $status -eq 2 ]; mv err doc.$jobs; done
+    ok "all are told" [ "$(grep -c '05-wrong\|09-wrong\|10-wrong\|gone.yaml' doc.1)" -ge 4 ]; same doc.1 doc.4
+    mkfifo p1.yaml p2.yaml; last="render of two pipes, --format $format"
+    "$monge" render p1.yaml p2.yaml -j 2 -o doc/ "${small[@]}" --format $format 2>err & pid=$!
+    ok "the second is read while the first waits" timeout 60 sh -c 'cat 05-wrong.yaml >p2.yaml'
+    timeout 60 sh -c 'cat 09-wrong.yaml >p1.yaml'; wait $pid; status=$?; rm p1.yaml p2.yaml
+    ok "exit 1" [ $status -eq 1 ]; ok "the first is told first" [ "$(grep -o 'p[12].yaml' err | uniq | tr '\n' ' ')" = 'p1.yaml p2.yaml ' ]
+done
+rm 09-wrong.yaml 10-wrong.yaml doc.*
 printf '%s\n' . gone.yaml "x*.yaml" >list; exits 2 render @list -o lots/ "${small[@]}"
 ok "what stands for nothing as well" [ "$(tail -n 4 err)" = "$(printf 'failed x*.yaml\nfailed lots/05-wrong.png  from ./05-wrong.yaml\nfailed lots/gone.png  from gone.yaml\n11 rendered, 3 failed')" ]
 rm more-* list
@@ -500,6 +511,10 @@ mkfifo waits.yaml; last='render of a pipe that nobody writes to (signal TERM)'; 
 await '[ -s cut.log ]'; sleep 0.3; kill -TERM $pid; { wait $pid; } 2>/dev/null; status=$?
 ok "the signal ends the reading" [ $status -eq 143 -a "$(wc -l <cut.log)" -eq 1 ]; err_lacks error
 ok "which is no failure" [ "$(tail -n 1 err)" = 'interrupted: 1 of 3 rendered; the same command with --resume goes on' ]; rm waits.yaml
+mkfifo waits.yaml; rm cut.log; last='render --format json of a pipe that nobody writes to (signal TERM)'
+"$monge" render probe.yaml waits.yaml -j 1 -o stopped/ --log cut.log --format json 2>err & pid=$!
+await '[ -s cut.log ]'; sleep 0.3; kill -TERM $pid; { wait $pid; } 2>/dev/null
+ok "nor in a document" [ "$(tr -d ' \n' <err)" = '[]' ]; rm waits.yaml
 last='render (two signals at once)'; rm -rf stopped cut.log
 if have perl; then # as some programs send them
     AND=TERM signalled INT 'sleep 0.2' render long.yaml -j 1 "${long[@]}" --samples 60000 -o stopped/ --resume

@@ -227,7 +227,8 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                  "--stats and --log take no name of a scene or a picture (.yaml, .yml, .png), nor of a list "
                  "of "
                  "the run; what scenes include under other names is not known to them.",
-                 "--jobs scenes are rendered at once, each on --threads threads; messages, --log and "
+                 "--jobs scenes are rendered at once, each on --threads threads; messages, the document of "
+                 "--format, --log and "
                  "--stats keep the order of the batch, and of more than one picture a line at the end counts "
                  "what has become of them; what was asked for and is not there has failed. What fails does "
                  "not "
