@@ -822,7 +822,7 @@ if have git; then
         echo "$broken" >s/one.yaml; git add s; commit 1 'a scene that is broken'; err_has 'test --golden goldens` shows it'; err_lacks 'takes what is meant'; err_lacks 'what is staged'
     done
     scene s/one.yaml blue; git add s
-    scene s/forgotten.yaml red; exits 1 test --golden goldens -q; exits 0 accept --golden goldens; git add goldens
+    scene s/forgotten.yaml red; scene other.yaml red; exits 1 test --golden goldens -q; exits 0 accept --golden goldens; git add goldens
     commit 1 'a golden whose scene is not staged'; err_has 'orphan   forgotten'; err_has 'files in the folder differ from that: `git add` stages them'; err_lacks 'takes what is meant'
     git add s; commit 0 'with its scene'
     last='git commit'; ln -s "$monge" program; MONGE=./program git commit --allow-empty -qm x >out 2>err; ok 'a program in the folder' [ $? -eq 0 ]
