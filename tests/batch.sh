@@ -289,6 +289,7 @@ ok "a line as the first picture begins" [ "$(head -n 1 err | grep -c '"done": 0,
 last='render --progress json of a pipe'; mkfifo pipe.yaml; "$monge" render pipe.yaml 02.yaml -j 1 -o bar/ --progress json "${small[@]}" 2>err & pid=$!
 await 'grep -q "\"part\": 0.0000.*\"running\": \[\]" err'; ok "lines while a scene is read" grep -q '"done": 0, "total": 2' err
 cat 02.yaml >pipe.yaml; wait $pid; rm pipe.yaml bar/pipe.png
+patient '--] ' 02.yaml -o bar/ --size 32x32 --progress always # of a single tile
 patient '1 of 2 pictures  03  [' 0[1-3].yaml -j 1 -o bar/ --size 400x300 --progress always
 cd ..
 
