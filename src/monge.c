@@ -51,6 +51,11 @@ void monge_diagnostics_warn(struct monge_diagnostics *diag, const char *code, co
     diag_warning(&diag->list, (struct span){0}, known_code(code), "%s", message);
 }
 
+void monge_diagnostics_append(struct monge_diagnostics *diag, const struct monge_diagnostics *from,
+                              bool again) {
+    diag_append(&diag->list, &from->list, again);
+}
+
 bool monge_diagnostics_take(struct monge_diagnostics *diag, struct monge_problem *first) {
     const struct diagnostic *d = diag_take(&diag->list);
     if (d)

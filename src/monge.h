@@ -65,6 +65,10 @@ monge_diagnostics_failures(const struct monge_diagnostics *diag); /* of the syst
 void monge_diagnostics_fail(struct monge_diagnostics *diag, const char *code, const char *message);
 void monge_diagnostics_warn(struct monge_diagnostics *diag, const char *code, const char *message);
 
+/* Adds what `from` has, which stays as it is; again: of the scene that was added last, told again, which is kept once. */
+void monge_diagnostics_append(struct monge_diagnostics *diag, const struct monge_diagnostics *from,
+                              bool again);
+
 /* The first error or failure, by place, of those told since the last call. False: there is none. The texts live as
  * long as diag; file is NULL where there is no place. */
 struct monge_problem {

@@ -112,6 +112,20 @@ for twice in 'check - @-' 'info - -' 'fmt --check @- -' 'render - - -o twice/ --
     last=$twice; "$monge" $twice <s/a.yaml >out 2>err; status=$?
     ok "standard input twice" [ $status -eq 2 ]; err_has 'standard input can be only one'; no_out; missing twice twice.json twice.log
 done
+for order in LE BE; do # as some editors save texts; names between NULs, one of which is the folder
+    printf '\xFF\xFEs\x00/\x00a\x00.\x00y\x00a\x00m\x00l\x00\n\x00' >wide
+    [ $order = LE ] || printf '\xFE\xFF\x00s\x00/\x00a\x00.\x00y\x00a\x00m\x00l\x00\n' >wide
+    exits 2 render @wide "${small[@]}" -o l/; ok "a list in UTF-16$order" [ "$(cat err)" = 'monge: error[no-match]: wide: this list is in UTF-16: save it as UTF-8' ]; missing l
+    last='render @- <wide'; "$monge" render @- "${small[@]}" -o l/ <wide >out 2>err; ok "is refused" [ $? -eq 2 ]; err_has 'standard input: this list is in UTF-16: save it as UTF-8'; missing l
+    last='render - <wide'; "$monge" render - "${small[@]}" -o l/ <wide >out 2>err; ok "with - too" [ $? -ne 0 ]; err_has 'save the file as UTF-8'; rm -rf l
+done
+exits 2 render @s/a.yaml "${small[@]}" -o l/; ok "a scene is no list" [ "$(cat err)" = 'monge: error[no-match]: s/a.yaml: this is a scene, and no list: give it without the @' ]; missing l
+cp list list.yml; exits 0 check @list.yml; out_is "$(printf 's/%s: ok\n' a.yaml inner/b.yml)"; rm list.yml
+cp list list.before; ln list list.hard; ln -s list list.soft
+for option in --stats --log; do for over in list ./list list.hard list.soft; do
+    exits 2 render s/a.yaml @list "${small[@]}" -o l/ $option $over; err_has "list would be written over by the output of $option"; same list list.before; missing l
+done; done
+mkdir l; cp list l/a.png; exits 2 render @l/a.png "${small[@]}" -o l/; err_has 'l/a.png would be written over by the output of s/a.yaml'; same l/a.png list; rm -r l list.*
 exits 2 render @ -o l/; err_has 'error[no-match]: @: a list has a name, or is @-, standard input'; missing l
 exits 0 render s/a.yaml -q "${small[@]}" -o picture.png; exits 2 render @picture.png -o l/; missing l
 ok "a picture is no list" [ "$(cat err)" = 'monge: error[no-match]: picture.png: this is a picture, and no list of scenes' ]; rm picture.png
@@ -231,6 +245,17 @@ for i in 1 2 3 4; do cp 06.yaml more-$i.yaml; done
 exits 1 render . -o lots/ "${small[@]}"; ok "failures, then counts" [ "$(tail -n 2 err)" = "$(printf 'failed lots/05-wrong.png  from ./05-wrong.yaml\n11 rendered, 1 failed')" ]
 exits 1 render . -j 4 -o doc/ "${small[@]}" --format json
 if have python3; then ok "a document alone" python3 -c 'import json; assert json.load(open("err"))[0]["code"] == "unknown-key"'; fi
+cp 05-wrong.yaml 09-wrong.yaml; echo 'scene: [' >10-wrong.yaml
+for format in json sarif; do # in the order of the batch, whatever ends first
+    for jobs in 1 4; do run render . gone.yaml -j $jobs -o doc/ "${small[@]}" --format $format; ok "exit 2" [ $status -eq 2 ]; mv err doc.$jobs; done
+    ok "all are told" [ "$(grep -c '05-wrong\|09-wrong\|10-wrong\|gone.yaml' doc.1)" -ge 4 ]; same doc.1 doc.4
+    mkfifo p1.yaml p2.yaml; last="render of two pipes, --format $format"
+    "$monge" render p1.yaml p2.yaml -j 2 -o doc/ "${small[@]}" --format $format 2>err & pid=$!
+    ok "the second is read while the first waits" timeout 60 sh -c 'cat 05-wrong.yaml >p2.yaml'
+    timeout 60 sh -c 'cat 09-wrong.yaml >p1.yaml'; wait $pid; status=$?; rm p1.yaml p2.yaml
+    ok "exit 1" [ $status -eq 1 ]; ok "the first is told first" [ "$(grep -o 'p[12].yaml' err | uniq | tr '\n' ' ')" = 'p1.yaml p2.yaml ' ]
+done
+rm 09-wrong.yaml 10-wrong.yaml doc.*
 printf '%s\n' . gone.yaml "x*.yaml" >list; exits 2 render @list -o lots/ "${small[@]}"
 ok "what stands for nothing as well" [ "$(tail -n 4 err)" = "$(printf 'failed x*.yaml\nfailed lots/05-wrong.png  from ./05-wrong.yaml\nfailed lots/gone.png  from gone.yaml\n11 rendered, 3 failed')" ]
 rm more-* list
@@ -259,6 +284,12 @@ assert log[4]["error"] == {"code": "unknown-key", "message": "a sphere has no ke
 assert len({p["started"] for p in log}) == 1 and re.fullmatch(r"20\d\d-\d\d-\d\dT\d\d:\d\d:\d\d\.\d{3}Z", log[0]["started"])
 PYTHON
 else left_out "progress and log: no python3"; fi
+exits 0 render 02.yaml 03.yaml -j 1 -o bar/ --progress json "${small[@]}" # of one tile each
+ok "a line as the first picture begins" [ "$(head -n 1 err | grep -c '"done": 0, "total": 2, .*"part": 0.0000, .*"running": \[{"scene": "02.yaml", "output": "bar/02.png", "pixels": 0, ')" -eq 1 ]
+last='render --progress json of a pipe'; mkfifo pipe.yaml; "$monge" render pipe.yaml 02.yaml -j 1 -o bar/ --progress json "${small[@]}" 2>err & pid=$!
+await 'grep -q "\"part\": 0.0000.*\"running\": \[\]" err'; ok "lines while a scene is read" grep -q '"done": 0, "total": 2' err
+cat 02.yaml >pipe.yaml; wait $pid; rm pipe.yaml bar/pipe.png
+patient '--] ' 02.yaml -o bar/ --size 32x32 --progress always # of a single tile
 patient '1 of 2 pictures  03  [' 0[1-3].yaml -j 1 -o bar/ --size 400x300 --progress always
 cd ..
 
@@ -307,6 +338,9 @@ exits 0 render [1-6].yaml -q --resume --log log; missing .log.waiting
 ok "the next run has them first" [ "$(grep -o '"scene": "[^"]*", "output": "[^"]*", "status": "[a-z]*"' log | grep -n . | sed -n '1p;6p;7p;12p' | cut -d'"' -f1,4,12 | tr -d '"' | tr '\n' ' ')" = '1:./1.yamlrendered 6:./6.yamlrendered 7:1.yamlunchanged 12:6.yamlunchanged ' ]
 hashes() { grep "$1" log | grep -o '"width".*"height": [0-9]*\|"program.*' | sed 's/, "samples.*//; s/}$//'; }
 ok "what is unchanged has its hashes" [ "$(hashes rendered)" = "$(hashes unchanged)" -a -n "$(hashes unchanged)" ]
+"$monge" render 1.yaml "${small[@]}" -q --log pids & first=$!; "$monge" render 2.yaml 3.yaml "${small[@]}" -q --log pids & second=$!
+wait $first $second; last='two runs at once with one log'
+ok "each has its process" [ "$(grep -o '"pid": [0-9]*' pids | sort | uniq -c | awk '{ print $3, $1 }' | sort)" = "$(printf '%s\n' "$first 1" "$second 2" | sort)" ]
 ok "two runs" [ "$(grep -o '"started": "[^"]*"' log | sort -u | wc -l)" -eq 2 ]
 cd ..
 
@@ -468,6 +502,20 @@ for row in 'TERM 143' 'HUP 129'; do
     ok "statistics of what is done" [ "$(grep -c '"status": ' cut.json)" -eq 1 ]
 done
 stopped TERM --resume; ok "with --resume" [ "$(tail -n 1 err)" = 'interrupted: 1 of 3 rendered; the same command goes on' ]
+for i in $(seq 11 21); do echo 'scene: [{sphere: {raduis: 1}}]' >broken-$i.yaml; done; rm -f cut.log
+last='render of broken scenes (signal TERM)'; "$monge" render broken-*.yaml long.yaml -j 1 "${long[@]}" -o stopped/ --log cut.log 2>err & pid=$!
+await '[ "$(wc -l <cut.log)" -eq 11 ]'; sleep 0.1; kill -TERM $pid; { wait $pid; } 2>/dev/null
+ok "what has failed is listed" [ "$(tail -n 12 err | head -n 1)" = 'failed stopped/broken-11.png  from broken-11.yaml' -a "$(grep -c '^failed stopped/broken-' err)" -eq 11 ]
+ok "before what is done" [ "$(tail -n 1 err)" = 'interrupted: 0 of 12 rendered, 11 failed' ]; rm broken-*
+mkfifo waits.yaml; last='render of a pipe that nobody writes to (signal TERM)'; rm -rf stopped cut.log
+"$monge" render probe.yaml waits.yaml stop-1.yaml -j 1 -o stopped/ --log cut.log 2>err & pid=$!
+await '[ -s cut.log ]'; sleep 0.3; kill -TERM $pid; { wait $pid; } 2>/dev/null; status=$?
+ok "the signal ends the reading" [ $status -eq 143 -a "$(wc -l <cut.log)" -eq 1 ]; err_lacks error
+ok "which is no failure" [ "$(tail -n 1 err)" = 'interrupted: 1 of 3 rendered; the same command with --resume goes on' ]; rm waits.yaml
+mkfifo waits.yaml; rm cut.log; last='render --format json of a pipe that nobody writes to (signal TERM)'
+"$monge" render probe.yaml waits.yaml -j 1 -o stopped/ --log cut.log --format json 2>err & pid=$!
+await '[ -s cut.log ]'; sleep 0.3; kill -TERM $pid; { wait $pid; } 2>/dev/null
+ok "nor in a document" [ "$(tr -d ' \n' <err)" = '[]' ]; rm waits.yaml
 last='render (two signals at once)'; rm -rf stopped cut.log
 if have perl; then # as some programs send them
     AND=TERM signalled INT 'sleep 0.2' render long.yaml -j 1 "${long[@]}" --samples 60000 -o stopped/ --resume

@@ -241,7 +241,13 @@ exits 0 render "${small[@]}" a/one.yaml -o deep/er/; is_png deep/er/one.png
 exits 0 render "${small[@]}" one.yaml -o deep; is_png deep/one.png
 exits 0 render "${small[@]}" one.yaml two.yml -o 'p-{name}.png'; is_png p-one.png; is_png p-two.png
 exits 0 render "${small[@]}" one.yaml two.yml -o 'q/{name}/'; is_png q/one/one.png; is_png q/two/two.png
-exits 2 render one.yaml -o '{nmae}.png'; err_has '-o: expected {name}, found `{nmae}`; did you mean {name}?'
+exits 2 render one.yaml -o 'x/{nope}.png'; err_has '-o: expected {name}, {frame} with --frames, {NAME} with -D NAME=VALUE, found `{nope}`'
+exits 2 render one.yaml -o 'x/{nope}.png' --frames all -D a=1; err_has '-o: expected {name}, {frame}, {a}, found `{nope}`'
+for word in -dash.yaml -king.yml -z.png; do
+    exits 2 render $word; ok "$word is a file" grep -qx "monge: no option \`-[diz]\`; a file of that name is ./$word" err
+done
+exits 2 render -z; ok 'a letter is none' [ "$(head -n 1 err)" = 'monge: no option `-z`' ]
+exits 2 render one.yaml -o '{nmae}.png'; err_has 'found `{nmae}`; did you mean {name}?'
 [ -e null ] && exits 0 render "${small[@]}" one.yaml two.yml -o null --stats null && ok "it stays a device" [ -c null ]
 exits 0 render "${small[@]}" --region 4,3,5,2 one.yaml -o region.png; png_size region.png 5 2
 exits 0 render "${small[@]}" one.yaml --bits 16 --encoding linear -o bits.png
@@ -275,7 +281,7 @@ rm -f one.png two.png x.png
 exits 2 render one.yaml two.yml -o x.png; err_has '-o x.png is one file for 2 scenes'; missing x.png
 exits 2 render a/one.yaml b/one.yaml; err_has 'a/one.yaml and b/one.yaml would both write'; err_has 'one.png; with --root DIR they keep their folders'; missing one.png
 ln -s . link
-exits 2 render one.yaml two.yml -o 'link/{name}.png' --stats one.png; err_has 'would both write'; missing one.png
+exits 2 render one.yaml --stats x.json --log link/x.json; err_has 'would both write'; missing one.png x.json
 cp two.yml new.yml; for name in one.yaml new.yml none.YAML notes.txt; do
     exits 2 render one.yaml -o $name; err_has "-o $name: pictures are PNG; did you mean ${name%.*}.png?"
 done
@@ -283,11 +289,14 @@ ok "the other scene is whole" cmp new.yml two.yml; missing none.YAML notes.txt; 
 for option in stats:json log:log; do
     exits 2 render one.yaml -q --${option%:*} two.yml; err_has "--${option%:*} two.yml is called like a scene; did you mean two.${option#*:}?"
     ok "the other scene is whole" grep -q scene two.yml
+    exits 2 render one.yaml -q --${option%:*} none.PNG; err_has "--${option%:*} none.PNG is called like a picture; did you mean none.${option#*:}?"; missing none.PNG
 done
 exits 2 render one.yaml two.yml -o link/one.yaml; err_has 'is one file'
 ln -s one.yaml alias.png
 exits 2 render one.yaml -o alias.png; err_has 'one.yaml would be written over'
-exits 2 render one.yaml --stats link/alias.png; err_has 'one.yaml would be written over by the output of --stats'
+ln one.yaml hard.json; for option in --stats --log; do
+    exits 2 render one.yaml $option link/hard.json; err_has "one.yaml would be written over by the output of $option"
+done
 ok "the scene is whole" cmp one.yaml a/one.yaml
 
 for name in x.jpg x.JPEG none/y.gif; do exits 2 render one.yaml -o $name; err_has "-o $name: pictures are PNG; did you mean ${name%.*}.png?"; missing $name; done
@@ -364,7 +373,7 @@ exits 2 render - --aov depth; err_has 'give -o FILE'
 cp one.yaml clash.yaml; cp one.yaml clash.object.yaml; rm -f clash*.png
 exits 2 render clash.yaml clash.object.yaml --aov object; err_has 'would both write'; err_has 'clash.object.png'; missing clash.png
 exits 0 render clash.yaml clash.object.yaml "${small[@]}" -q --aov depth; is_png clash.object.png
-exits 2 render clash.yaml --aov object --stats clash.object.png; err_has 'would both write'
+exits 2 render clash.yaml --aov depth --stats clash.depth.pfm; err_has 'would both write'
 cp one.yaml clash.depth.pfm
 exits 2 render clash.depth.pfm --aov depth -o clash.png; err_has 'clash.depth.pfm would be written over'
 mkdir clash.normal.png
@@ -453,9 +462,9 @@ exits 2 render params.yaml -D a=1,2 -D b=1,2 -o 'x{a}.png'
 err_has 'params.yaml with a=1, b=1 and params.yaml with a=1, b=2 would both write'; err_has "write -o 'x{a}-{b}.png'"; missing x1.png
 exits 2 render params.yaml -D a=1,1; err_has 'would both write'
 exits 2 render params.yaml one.yaml -D a=1,2 -o '{a}.png'; err_has "write -o '{a}-{name}.png'"
-exits 2 render params.yaml -D a=1,2 -o '{a}{c}.png'; err_has '-o: expected {name}, {a}, found `{c}`'
+exits 2 render params.yaml -D a=1,2 -o '{a}{c}.png'; err_has '-o: expected {name}, {frame} with --frames, {a}, found `{c}`'
 exits 2 render params.yaml -D tint=red,gold -o '{tnit}.png'; err_has 'did you mean {tint}?'
-exits 2 render params.yaml -o '{a}.png'; err_has '-D NAME=VALUE makes a {NAME}'
+exits 2 render params.yaml -o '{a}.png'; err_has '{NAME} with -D NAME=VALUE, found `{a}`'
 exits 2 render params.yaml -o '{a'; err_has 'found `{a`'
 last='render - -D a=1,2 <params.yaml'
 "$monge" render -q "${small[@]}" - -D a=1,2 -o 's{a}.png' <params.yaml >out 2>err; status=$?
@@ -511,6 +520,10 @@ done
 for bad in 0 0-3 3-2 -3 x 1-x 1:0 1: all: 1-2-3 '' 1000001 allx; do
     exits 2 render view.yaml --frames "$bad"; err_has "--frames: expected N, A-B, A- or all, perhaps with :STEP, from 1, found \`$bad\`"
 done
+for row in '2-13 2-' '3-13:2 3-:2'; do
+    exits 2 render view.yaml --frames "${row% *}"; err_has "has 12 frames; ${row#* } goes to the last"
+done
+for bad in 13 13-14; do exits 2 render view.yaml --frames $bad; err_lacks 'goes to'; done
 for bad in 13 12-13 13- 13-14; do exits 2 render view.yaml --frames $bad; err_has "error[no-frame]: --frames $bad: view.yaml has 12 frames"; done
 for asked in 1 1-3 2-; do
     exits 2 render one.yaml --frames $asked; err_has "--frames $asked: one.yaml"; err_has 'one.yaml has no animation; `animation: {frames: 48}` makes one'

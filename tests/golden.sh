@@ -874,6 +874,15 @@ if have git; then
     scene s/one.yaml lime; git add s; commit 1 'as it is in the folder'; err_lacks 'what is staged'
     scene s/one.yaml blue; commit 1 'a change that is staged alone'; err_has 'pre-commit: this is of what is staged; files in the folder differ from that: `git add` stages them'
     exits 0 test --golden goldens -q; git add s
+    for broken in 'scene: [{sphere: {raduis: 1}}]' 'scene: ['; do
+        echo "$broken" >s/one.yaml; git add s; commit 1 'a scene that is broken'; err_has 'test --golden goldens` shows it'; err_lacks 'takes what is meant'; err_lacks 'what is staged'
+    done
+    scene s/one.yaml blue; git add s
+    scene s/forgotten.yaml red; scene other.yaml red; exits 1 test --golden goldens -q; exits 0 accept --golden goldens; git add goldens
+    commit 1 'a golden whose scene is not staged'; err_has 'orphan   forgotten'; err_has 'files in the folder differ from that: `git add` stages them'; err_lacks 'takes what is meant'
+    git add s; commit 0 'with its scene'
+    last='git commit'; ln -s "$monge" program; MONGE=./program git commit --allow-empty -qm x >out 2>err; ok 'a program in the folder' [ $? -eq 0 ]
+    mkdir -p s/deep; cd s/deep; MONGE=./program git commit --allow-empty -qm x >../../out 2>../../err; ok 'from the top' [ $? -eq 0 ]; cd ../..; rm program
     git rm -qf s/two.yaml; commit 1 'a scene that is gone'; err_has '`'"$monge"' accept --golden goldens --prune` takes what is meant'
     exits 1 test --golden goldens -q; exits 0 accept --golden goldens --prune; git add goldens; commit 0 'its golden, too'
     last='git commit'; MONGE=no/monge git commit --allow-empty -qm x >out 2>err; ok 'no program' [ $? -eq 1 ]

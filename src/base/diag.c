@@ -81,16 +81,15 @@ static bool place_before(const struct place *a, const struct place *b) {
 }
 
 /* Of what a loop or a template says again with other numbers, the first time is enough. */
-static bool is_said(const struct diagnostics *diag, const struct diagnostic *before,
-                    const struct diagnostic *d) {
-    return strcmp(before->message, d->message) == 0 || (diag->frame && strcmp(before->code, d->code) == 0);
+static bool is_said(const struct diagnostic *before, const struct diagnostic *d) {
+    return strcmp(before->message, d->message) == 0 || (d->framed && strcmp(before->code, d->code) == 0);
 }
 
 /* The same, told of the same scene before; NULL: none. */
 static struct diagnostic *find_same(const struct diagnostics *diag, const struct diagnostic *d) {
     for (struct diagnostic *e = diag->first; e; e = e->next)
         if (e->load >= diag->scene && e->severity == d->severity && same_file(&e->place, &d->place) &&
-            e->place.line == d->place.line && e->place.column == d->place.column && is_said(diag, e, d))
+            e->place.line == d->place.line && e->place.column == d->place.column && is_said(e, d))
             return e;
     return NULL;
 }
@@ -165,6 +164,7 @@ static struct diagnostic *add(struct diagnostics *diag, enum severity severity, 
     d->severity = severity;
     d->code = code;
     d->load = diag->load;
+    d->framed = diag->frame != NULL;
     d->message = format_text(&diag->arena, format, args);
     d->place = make_place(diag, span);
     struct diagnostic *same = find_same(diag, d);
@@ -181,6 +181,61 @@ static struct diagnostic *add(struct diagnostics *diag, enum severity severity, 
     add_frames(diag, d);
     return d;
 }
+
+/* ---- From list to list ---- */
+
+static const char *copy_text(struct arena *arena, const char *text) {
+    return text ? arena_text(arena, text, strlen(text)) : NULL;
+}
+
+static struct place copy_place(struct arena *arena, const struct place *place) {
+    struct place copy = *place;
+    copy.file = copy_text(arena, place->file);
+    copy.excerpt = copy_text(arena, place->excerpt);
+    return copy;
+}
+
+static struct diagnostic *copy_diagnostic(struct arena *arena, const struct diagnostic *d) {
+    struct diagnostic *copy = arena_alloc(arena, sizeof *copy);
+    struct related **at = &copy->related;
+    *copy = *d;
+    copy->place = copy_place(arena, &d->place);
+    copy->message = copy_text(arena, d->message);
+    copy->help = copy_text(arena, d->help);
+    copy->note = copy_text(arena, d->note);
+    for (const struct related *r = d->related; r; r = r->next, at = &(*at)->next) {
+        *at = arena_alloc(arena, sizeof **at);
+        **at = (struct related){copy_place(arena, &r->place), copy_text(arena, r->text), NULL};
+    }
+    return copy;
+}
+
+static void append(struct diagnostics *diag, const struct diagnostic *d) {
+    struct diagnostic *same = find_same(diag, d);
+    if (same) {
+        same->load = diag->load;
+        diag->repeated++;
+    } else if (!diag_full(diag) || d->severity == SEVERITY_FAILURE) {
+        struct diagnostic *copy = copy_diagnostic(&diag->arena, d);
+        copy->load = diag->load;
+        diag->kept++;
+        insert(diag, copy);
+    }
+}
+
+void diag_append(struct diagnostics *diag, const struct diagnostics *from, bool again) {
+    if (again)
+        diag_begin_again(diag);
+    else
+        diag_begin(diag);
+    diag->errors += from->errors;
+    diag->warnings += from->warnings;
+    diag->failures += from->failures;
+    diag->repeated += from->repeated;
+    for (const struct diagnostic *d = from->first; d; d = d->next) append(diag, d);
+}
+
+/* ---- Making them ---- */
 
 struct diagnostic *diag_error(struct diagnostics *diag, struct span span, const char *code,
                               const char *format, ...) {

@@ -45,6 +45,7 @@ struct diagnostic {
     const char *note;    /* background in a line of its own; NULL: none */
     struct related *related;
     unsigned load;       /* which of the loads told it last */
+    bool framed;         /* told of what was under way: a template, a loop */
     bool printed, taken; /* by diag_print_new, by diag_take */
     struct diagnostic *next;
 };
@@ -77,6 +78,9 @@ void diag_begin(struct diagnostics *diag);
 
 /* The last scene is loaded again, for another frame or with other values: what was told of it counts again, but is kept once. */
 void diag_begin_again(struct diagnostics *diag);
+
+/* Adds what another list has, as a load of its own; again: of the last scene. The other stays as it is. */
+void diag_append(struct diagnostics *diag, const struct diagnostics *from, bool again);
 
 /* `code` is static. Each returns the diagnostic, to add help, a note or related places to; never NULL. The same
  * message of a load at the same place is kept and counted once, as long as there is room to keep it. What

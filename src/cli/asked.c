@@ -130,6 +130,18 @@ bool asked_region(const struct option_value *option, const char *scene, const st
     return false;
 }
 
+/* Where the range begins within the animation, that to its end is what may be meant. */
+static void report_beyond(const struct option_value *option, const char *scene, unsigned total,
+                          const struct report *report) {
+    const unsigned first = option->number[0], step = option->number[2];
+    char *every = step > 1 ? say_text(":%u", step) : say_text("%s", "");
+    char *hint = first <= total ? say_text("; %u-%s goes to the last", first, every) : say_text("%s", "");
+    report_failure(report, "no-frame", "--frames %s: %s has %u frame%s%s", option->text, scene, total,
+                   total == 1 ? "" : "s", hint);
+    free(hint);
+    free(every);
+}
+
 unsigned *asked_frames(const struct option_value *option, const char *scene, unsigned total,
                        const struct report *report, size_t *count) {
     const unsigned first = option->given ? option->number[0] : 1,
@@ -145,8 +157,7 @@ unsigned *asked_frames(const struct option_value *option, const char *scene, uns
         return NULL;
     }
     if (option->given && !still && (first > total || last > total)) {
-        report_failure(report, "no-frame", "--frames %s: %s has %u frame%s", option->text, scene, total,
-                       total == 1 ? "" : "s");
+        report_beyond(option, scene, total, report);
         return NULL;
     }
     *count = (last - first) / step + 1;

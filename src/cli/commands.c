@@ -224,7 +224,11 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                  "which point lights reach it there. " IN_DOCUMENTS(
                      "manual.md") " tells what is in the files.",
                  "-o - is standard output.",
-                 "--jobs scenes are rendered at once, each on --threads threads; messages, --log and "
+                 "--stats and --log take no name of a scene or a picture (.yaml, .yml, .png), nor of a list "
+                 "of "
+                 "the run; what scenes include under other names is not known to them.",
+                 "--jobs scenes are rendered at once, each on --threads threads; messages, the document of "
+                 "--format, --log and "
                  "--stats keep the order of the batch, and of more than one picture a line at the end counts "
                  "what has become of them; what was asked for and is not there has failed. What fails does "
                  "not "
@@ -246,14 +250,17 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                  "--resume `: its text differs` or what else the reason is, or `unchanged`. Scenes are read "
                  "only "
                  "with --frames; what is wrong in others is for `monge check` to tell.",
-                 "--progress json writes a line for each picture that is done and ten a second while one is "
-                 "rendered: an object with done, total, rendered, unchanged, failed (pictures), part (0 to "
+                 "--progress json writes a line when the first picture is begun, for each that is done, at "
+                 "most ten "
+                 "a second when others are begun or tiles are done, and about one a second else: an object "
+                 "with done, total, rendered, unchanged, failed (pictures), part (0 to "
                  "1), seconds, seconds_left (null: unknown), and running, a list of objects with scene, "
                  "output, "
                  "frame, pixels, of_pixels; --quiet is implied.",
                  "--log adds a line for each picture to a file, in the order of the batch: started (when the "
                  "run "
-                 "began), scene, output, frame, params, status (rendered, unchanged, failed), error (of a "
+                 "began), pid (its process), scene, output, frame, params, status (rendered, unchanged, "
+                 "failed), error (of a "
                  "failed "
                  "one: code, message, file, line, column), and what --stats has, with hashes. Lines whose "
                  "turn has "

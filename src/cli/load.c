@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "cli/interrupt.h"
 #include "cli/say.h"
 
 bool loader_begin(struct loader *loader, const struct arguments *args) {
@@ -69,7 +70,8 @@ struct load load_scene(struct loader *loader, const char *path, const struct mon
         load.status = STATUS_YES;
     else if (monge_diagnostics_failures(diag) == failures)
         load.status = STATUS_NO;
-    report_show(&loader->report, diag);
+    if (load.scene || !interrupt_pending())
+        report_show(&loader->report, diag); /* a read that a signal ends */
     return load;
 }
 

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "cli/asked.h"
+#include "cli/paths.h"
 #include "cli/say.h"
 #include "cli/suggest.h"
 
@@ -346,23 +347,25 @@ static bool parse_long(struct arguments *args, const char *word, struct words *r
 }
 
 /* The same of a letter; the value is what follows it. */
-static bool unknown_letter(enum command_id command, const char *shown, const char *value) {
+static bool unknown_letter(enum command_id command, const char *word, const char *shown, const char *value) {
     enum option_id o = 0;
     while (o < OPTIONS && !(is_of_rules(command, o) && OPTION_TABLE[o].letter == shown[1])) o++;
     if (o < OPTIONS)
         refer_to_rules(o, shown, value);
+    else if (path_input_extension(word))
+        say_usage(command, "no option `%s`; a file of that name is ./%s", shown, word);
     else
         say_usage(command, "no option `%s`", shown);
     return false;
 }
 
-/* -q, -o VALUE, -oVALUE, or several together; `letters` begins after the dash. */
-static bool parse_letters(struct arguments *args, const char *letters, struct words *rest) {
-    for (; *letters; letters++) {
+/* -q, -o VALUE, -oVALUE, or several together, as the user wrote them. */
+static bool parse_letters(struct arguments *args, const char *word, struct words *rest) {
+    for (const char *letters = word + 1; *letters; letters++) {
         const enum option_id o = find_letter(args->command, *letters);
         const char shown[3] = {'-', *letters, '\0'};
         if (o == OPTIONS)
-            return unknown_letter(args->command, shown, letters[1] ? letters + 1 : take_word(rest));
+            return unknown_letter(args->command, word, shown, letters[1] ? letters + 1 : take_word(rest));
         if (OPTION_TABLE[o].kind != VALUE_NONE)
             return letters[1] ? set_value(args, o, shown, letters + 1) : set_next_value(args, o, shown, rest);
         args->option[o].given = true;
@@ -390,7 +393,7 @@ bool options_parse(enum command_id command, int argc, char **argv, struct argume
         else if (word[1] == '-')
             good = parse_long(args, word + 2, &rest);
         else
-            good = parse_letters(args, word + 1, &rest);
+            good = parse_letters(args, word, &rest);
         if (!good) return false;
     }
     return true;

@@ -101,19 +101,19 @@ static bool check_pattern(const struct plan *plan) {
     return false;
 }
 
-/* What is called like a scene would write over one, were it another than is rendered. */
-static bool check_no_scene(const char *option, const char *path, const char *extension) {
-    const char *end = path ? scene_extension(path) : NULL;
+/* What is called like a scene or a picture would write over one, were it another than is rendered. */
+static bool check_no_input(const char *option, const char *path, const char *extension) {
+    const char *end = path ? path_input_extension(path) : NULL;
     if (!end || path_is_special(path)) return true;
-    say_usage(COMMAND_RENDER, "%s %s is called like a scene; did you mean %.*s%s?", option, path,
-              (int)(end - path), path, extension);
+    say_usage(COMMAND_RENDER, "%s %s is called like a %s; did you mean %.*s%s?", option, path,
+              scene_extension(path) ? "scene" : "picture", (int)(end - path), path, extension);
     return false;
 }
 
 static bool check_kinds(const struct plan *plan) {
     const char *wanted = plan->wanted;
     return (!wanted || is_stream(wanted) || path_check_picture(COMMAND_RENDER, "-o", wanted)) &&
-           check_no_scene("--stats", plan->stats, ".json") && check_no_scene("--log", plan->log, ".log");
+           check_no_input("--stats", plan->stats, ".json") && check_no_input("--log", plan->log, ".log");
 }
 
 /* ---- Conflicts ---- */
@@ -197,15 +197,37 @@ static bool make_room(struct plan *plan, size_t more) {
     return claims != NULL;
 }
 
+static bool spares(const char *option, const char *path, const char *read) {
+    if (!path || path_is_special(path) || !path_is_same(path, read)) return true;
+    say_usage(COMMAND_RENDER, "%s would be written over by the output of %s", read, option);
+    return false;
+}
+
+/* By whatever names: a log grows in place, in all of them. */
+static bool check_inputs(const struct plan *plan) {
+    const struct scenes *scenes = plan->scenes;
+    bool good = true;
+    for (size_t i = 0; good && i < scenes->list_count; i++)
+        good =
+            spares("--stats", plan->stats, scenes->lists[i]) && spares("--log", plan->log, scenes->lists[i]);
+    for (size_t i = 0; good && i < scenes->count; i++)
+        good = spares("--stats", plan->stats, scenes->all[i].path) &&
+               spares("--log", plan->log, scenes->all[i].path);
+    return good;
+}
+
 static bool check_files(struct plan *plan) {
-    if (!make_room(plan, plan->count * (2 + MONGE_LAYERS) + 2)) return false;
+    const struct scenes *scenes = plan->scenes;
+    if (!make_room(plan, plan->count * (2 + MONGE_LAYERS) + scenes->list_count + 2)) return false;
+    for (size_t i = 0; i < scenes->list_count; i++)
+        add_claim(plan, scenes->lists[i], scenes->lists[i], false);
     for (size_t i = 0; i < plan->count; i += plan->sweep->total)
         add_claim(plan, plan->outputs[i].scene, plan->outputs[i].scene, false);
     for (size_t i = 0; i < plan->count; i++)
         add_picture_claims(plan, plan->outputs[i].path, plan->outputs[i].title);
     if (plan->stats) add_claim(plan, plan->stats, "--stats", true);
     if (plan->log) add_claim(plan, plan->log, "--log", true);
-    return check_claims(plan);
+    return check_inputs(plan) && check_claims(plan);
 }
 
 static bool check_streams(const struct plan *plan) {

@@ -31,7 +31,7 @@ struct plan {
     char *lost; /* owned: the folder that could not be made, as was told; NULL: none */
 };
 
-/* Plans the outputs, and sees to it that nothing is written twice, or over a scene or the file of --stats or --log.
+/* Plans the outputs, and sees to it that nothing is written twice, or over a scene, a list or the file of --stats or --log.
  * False when something is wrong, with the reason on stderr or, about files, in the report. Either way to be freed. */
 bool plan_begin(struct plan *plan, const struct arguments *args, const struct scenes *scenes,
                 const struct sweep *sweep, const struct report *report);

@@ -64,6 +64,14 @@ bool path_check_picture(enum command_id command, const char *option, const char 
     return false;
 }
 
+const char *path_input_extension(const char *path) {
+    static const char *const extensions[] = {".yaml", ".yml", ".png"};
+    const char *dot = strrchr(path + path_folder_length(path), '.');
+    for (size_t i = 0; dot && i < sizeof extensions / sizeof *extensions; i++)
+        if (strcasecmp(dot, extensions[i]) == 0) return dot;
+    return NULL;
+}
+
 bool path_make_folders(const char *path) {
     char *copy = say_text("%s", path);
     bool good = true;

@@ -26,6 +26,9 @@ size_t path_folder_length(const char *path);
  * the reason told, where it ends otherwise: that would fool whoever looks for it, or write over what is none. */
 bool path_check_picture(enum command_id command, const char *option, const char *path);
 
+/* The extension of what is called as scenes, includes and pictures are: .yaml, .yml, .png, in any case. NULL: it is not. */
+const char *path_input_extension(const char *path);
+
 /* Makes the folders that the file `path` needs. False, with the reason told. */
 bool path_make_folders(const char *path);
 

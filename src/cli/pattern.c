@@ -85,7 +85,7 @@ static bool is_known(const struct piece *word, const struct sweep *sweep, bool f
 
 static void report_unknown(const char *found, const char *word, const struct sweep *sweep, bool frames) {
     struct suggestion nearest = {.word = word};
-    char *all = say_text("{name}%s", frames ? ", {frame}" : "");
+    char *all = say_text("{name}, {frame}%s", frames ? "" : " with --frames");
     suggestion_try(&nearest, "name");
     if (frames) suggestion_try(&nearest, "frame");
     for (size_t i = 0; i < sweep->count; i++) {
@@ -94,14 +94,13 @@ static void report_unknown(const char *found, const char *word, const struct swe
         free(all);
         all = longer;
     }
-    const char *best = suggestion_best(&nearest);
+    const char *best = suggestion_best(&nearest), *own = sweep->count ? "" : ", {NAME} with -D NAME=VALUE";
     if (strcmp(word, "frame") == 0)
         say_usage(COMMAND_RENDER, "-o: {frame} is for --frames");
     else if (best)
-        say_usage(COMMAND_RENDER, "-o: expected %s, found `%s`; did you mean {%s}?", all, found, best);
+        say_usage(COMMAND_RENDER, "-o: expected %s%s, found `%s`; did you mean {%s}?", all, own, found, best);
     else
-        say_usage(COMMAND_RENDER, "-o: expected %s, found `%s`%s", all, found,
-                  sweep->count ? "" : "; -D NAME=VALUE makes a {NAME}");
+        say_usage(COMMAND_RENDER, "-o: expected %s%s, found `%s`", all, own, found);
     free(all);
 }
 

@@ -2,6 +2,7 @@
 
 #include <inttypes.h>
 #include <stdlib.h>
+#include <unistd.h>
 
 void picture_free(struct picture *picture) {
     free(picture->output);
@@ -84,7 +85,7 @@ static void print_problem(FILE *out, const struct problem *problem) {
 
 void picture_write_json(const struct picture *p, const char *started, FILE *out) {
     fputs("{", out);
-    if (started) fprintf(out, "\"started\": \"%s\", ", started);
+    if (started) fprintf(out, "\"started\": \"%s\", \"pid\": %ld, ", started, (long)getpid());
     fputs("\"scene\": ", out);
     monge_write_json_string(p->scene, out);
     fputs(", \"output\": ", out);

@@ -30,7 +30,8 @@ struct picture {
 
 void picture_free(struct picture *picture);
 
-/* As a JSON object in one line; README.md has its members. started: when the run did; NULL: not to be told. */
+/* As a JSON object in one line; README.md has its members. started: when the run did, to be told with its
+ * process; NULL: neither. */
 void picture_write_json(const struct picture *picture, const char *started, FILE *out);
 
 #endif

@@ -11,26 +11,13 @@
 
 enum { MAX_COLUMNS = 200, MAX_BAR = 40 };
 
-#define INTERVAL 0.1 /* seconds between two drawings, and before the first */
+#define INTERVAL 0.1 /* seconds between two drawings, and before the first bar */
+#define TICK     1.0 /* seconds after which what has not changed is shown again */
 
 /* Carriage returns do not move what a dumb terminal has printed. */
 static bool is_seen(void) {
     const char *terminal = getenv("TERM");
     return isatty(STDERR_FILENO) && !(terminal && strcmp(terminal, "dumb") == 0);
-}
-
-void progress_begin(struct progress *progress, enum progress_wish wish, bool quiet, size_t units,
-                    size_t missing) {
-    const double now = clock_seconds();
-    if (wish == PROGRESS_AUTO) wish = !quiet && is_seen() ? PROGRESS_ALWAYS : PROGRESS_NEVER;
-    *progress = (struct progress){.wish = wish,
-                                  .lock = PTHREAD_MUTEX_INITIALIZER,
-                                  .units = units,
-                                  .pictures = units + missing,
-                                  .done[PICTURE_FAILED] = missing,
-                                  .start = now,
-                                  .now = now,
-                                  .shown = now};
 }
 
 /* Columns that may be drawn in: the last one stays free, where some terminals would wrap. */
@@ -233,6 +220,54 @@ static void show(struct progress *p) {
     draw_bar(p, title, part_done(p, left), left);
 }
 
+static bool is_due(const struct progress *p) { return p->now - p->shown >= INTERVAL; }
+
+/* ---- When nothing is done for long ---- */
+
+static void wait_interval(struct progress *p) {
+    struct timespec until;
+    clock_gettime(CLOCK_REALTIME, &until);
+    until.tv_nsec += (long)(1e9 * INTERVAL);
+    until.tv_sec += until.tv_nsec / 1000000000;
+    until.tv_nsec %= 1000000000;
+    pthread_cond_timedwait(&p->ended, &p->lock, &until);
+}
+
+/* A bar is drawn only while a picture is rendered: otherwise its thread may be writing to the terminal. */
+static bool may_tick(const struct progress *p) { return p->wish == PROGRESS_JSON || *name_at_work(p); }
+
+static void *tick(void *context) {
+    struct progress *p = context;
+    pthread_mutex_lock(&p->lock);
+    while (!p->is_over) {
+        const bool first = p->wish == PROGRESS_ALWAYS && p->columns == 0;
+        share_time(p);
+        if (may_tick(p) && (first ? is_due(p) : p->now - p->shown >= TICK)) show(p);
+        wait_interval(p);
+    }
+    pthread_mutex_unlock(&p->lock);
+    return NULL;
+}
+
+/* The first picture of JSON is shown as soon as it is begun. */
+void progress_begin(struct progress *progress, enum progress_wish wish, bool quiet, size_t units,
+                    size_t missing) {
+    const double now = clock_seconds();
+    if (wish == PROGRESS_AUTO) wish = !quiet && is_seen() ? PROGRESS_ALWAYS : PROGRESS_NEVER;
+    *progress = (struct progress){.wish = wish,
+                                  .lock = PTHREAD_MUTEX_INITIALIZER,
+                                  .ended = PTHREAD_COND_INITIALIZER,
+                                  .units = units,
+                                  .pictures = units + missing,
+                                  .done[PICTURE_FAILED] = missing,
+                                  .start = now,
+                                  .now = now,
+                                  .shown = wish == PROGRESS_JSON ? now - 2 * INTERVAL : now};
+    progress->ticks = wish != PROGRESS_NEVER && pthread_create(&progress->ticker, NULL, tick, progress) == 0;
+}
+
+/* ---- Units ---- */
+
 void progress_unit_begin(struct progress_unit *unit, struct progress *progress) {
     *unit = (struct progress_unit){.progress = progress, .pictures = 1};
     pthread_mutex_lock(&progress->lock);
@@ -278,6 +313,7 @@ void progress_picture(struct progress_unit *unit, const char *name, const struct
     unit->pixels = 0;
     unit->of_pixels = pixels;
     unit->known = known;
+    if (p->wish == PROGRESS_JSON && is_due(p)) show(p);
     pthread_mutex_unlock(&p->lock);
 }
 
@@ -301,7 +337,7 @@ void progress_update(void *context, uint64_t done, uint64_t total) {
     pthread_mutex_lock(&p->lock);
     share_time(p);
     if (done > unit->pixels) move(unit, done);
-    if (p->wish != PROGRESS_NEVER && done > 0 && p->now - p->shown >= INTERVAL) show(p);
+    if (p->wish != PROGRESS_NEVER && done > 0 && is_due(p)) show(p);
     pthread_mutex_unlock(&p->lock);
 }
 
@@ -330,7 +366,18 @@ void progress_hide(struct progress *progress) {
     pthread_mutex_unlock(&progress->lock);
 }
 
+static void end_ticking(struct progress *p) {
+    if (!p->ticks) return;
+    pthread_mutex_lock(&p->lock);
+    p->is_over = true;
+    pthread_cond_signal(&p->ended);
+    pthread_mutex_unlock(&p->lock);
+    pthread_join(p->ticker, NULL);
+}
+
 void progress_end(struct progress *progress) {
+    end_ticking(progress);
     progress_hide(progress);
+    pthread_cond_destroy(&progress->ended);
     pthread_mutex_destroy(&progress->lock);
 }

@@ -44,7 +44,7 @@ struct progress_unit {
 
 struct progress {
     enum progress_wish wish; /* NEVER: nothing is shown; else ALWAYS or JSON */
-    pthread_mutex_t lock;    /* of all that follows, and of the units */
+    pthread_mutex_t lock;    /* of all that follows up to `columns` and of is_over, and of the units */
     size_t units, pictures;  /* in the batch; the pictures as far as they are known */
     size_t begun;            /* units */
     size_t done[3];          /* pictures, by their outcome */
@@ -54,6 +54,10 @@ struct progress {
     double worked, seconds;     /* rendered of it, and how long that took */
     double start, now, shown;   /* seconds by clock_seconds; now: up to which they are shared */
     size_t columns;             /* of the line that stands; 0: none */
+    pthread_t ticker;           /* shows again, about once a second, what does not change, */
+    bool ticks;                 /* where it could be started; */
+    bool is_over;               /* tells it to end, with the signal: */
+    pthread_cond_t ended;
 };
 
 /* `quiet` makes a wish of auto mean never. missing: what was asked for and is not there, which counts as pictures

@@ -196,7 +196,9 @@ static bool run_unit(void *context, size_t index) {
     *unit = (struct unit){.work = work, .output = &work->plan.outputs[index]};
     progress_unit_begin(&unit->progress, &work->progress);
     report_watch(&unit->problem);
+    report_apart(&work->loader.report);
     unit->status = render_output(unit);
+    unit->apart = report_apart_end();
     report_watch(NULL);
     progress_unit_end(&unit->progress);
     return unit->status == STATUS_YES || !work_wants(work, OPTION_FAIL_FAST);
@@ -223,10 +225,21 @@ static void tell(struct work *work, const struct unit *unit, const char *said) {
     work->scene = unit->output->scene;
 }
 
+/* What each combination says again is kept once. A unit that a signal has stopped has no picture: it says nothing. */
+static void document(struct work *work, struct unit *unit) {
+    if (unit->count > 0)
+        report_add(&work->loader.report, unit->apart, work->documented == unit->output->scene);
+    else
+        monge_diagnostics_free(unit->apart);
+    unit->apart = NULL;
+    work->documented = unit->output->scene;
+}
+
 static void end_unit(void *context, size_t index, const char *said) {
     struct work *work = context;
-    const struct unit *unit = &work->units[index];
+    struct unit *unit = &work->units[index];
     tell(work, unit, said);
+    document(work, unit);
     if (work_wants(work, OPTION_DRY_RUN) && !work_wants(work, OPTION_QUIET)) tell_foreseen(unit);
     for (size_t i = 0; i < unit->count; i++) {
         work->outcomes[unit->pictures[i].outcome]++;
@@ -235,11 +248,11 @@ static void end_unit(void *context, size_t index, const char *said) {
     if (unit->status > work->worst) work->worst = unit->status;
 }
 
-/* Several loads at once would mix up a document of what is wrong; and what goes to a pipe has an order. */
+/* What goes to a pipe has an order. */
 static unsigned choose_jobs(const struct work *work) {
     const struct option_value *option = &work->args.option[OPTION_JOBS];
     const unsigned jobs = option->given ? option->number[0] : monge_processors();
-    if (work->loader.report.format != MONGE_FORMAT_TEXT || plan_is_serial(&work->plan)) return 1;
+    if (plan_is_serial(&work->plan)) return 1;
     return jobs < work->plan.count ? jobs : work->plan.count > 0 ? (unsigned)work->plan.count : 1;
 }
 
@@ -302,6 +315,7 @@ static const char *way_on(const struct work *work) {
 
 static void tell_interrupted(const struct work *work) {
     if (work_wants(work, OPTION_QUIET)) return;
+    if (count_pictures(work) > FEW) list_failures(work);
     char *others = count_others(work);
     say_note("interrupted: %zu of %zu rendered%s%s", work->outcomes[PICTURE_RENDERED],
              work->progress.pictures, others, way_on(work));
@@ -354,7 +368,6 @@ static bool work_begin(struct work *work, const struct arguments *args) {
     if (work->loader.report.format != MONGE_FORMAT_TEXT ||
         args->option[OPTION_PROGRESS].choice == PROGRESS_JSON)
         work->args.option[OPTION_QUIET].given = true;
-    work->loader.serial = work->loader.report.format != MONGE_FORMAT_TEXT; /* see choose_jobs */
     work->units = calloc(work->plan.count + 1, sizeof *work->units);
     if (!work->units) say_error("out of memory");
     return work->units != NULL;

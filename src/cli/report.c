@@ -24,6 +24,25 @@ void problem_free(struct problem *problem) {
     free(problem->file);
 }
 
+/* ---- Several at once ---- */
+
+static _Thread_local struct monge_diagnostics *kept_apart; /* NULL: all goes into the document at once */
+
+static struct monge_diagnostics *new_diagnostics(void);
+
+void report_apart(const struct report *report) { kept_apart = report->all ? new_diagnostics() : NULL; }
+
+struct monge_diagnostics *report_apart_end(void) {
+    struct monge_diagnostics *apart = kept_apart;
+    kept_apart = NULL;
+    return apart;
+}
+
+void report_add(const struct report *report, struct monge_diagnostics *apart, bool again) {
+    if (apart) monge_diagnostics_append(report->all, apart, again);
+    monge_diagnostics_free(apart);
+}
+
 /* ---- The report ---- */
 
 static struct monge_diagnostics *new_diagnostics(void) {
@@ -40,17 +59,18 @@ bool report_begin(struct report *report, const struct arguments *args) {
 }
 
 struct monge_diagnostics *report_open(const struct report *report) {
-    return report->all ? report->all : new_diagnostics();
+    if (!report->all) return new_diagnostics();
+    return kept_apart ? kept_apart : report->all;
 }
 
 void report_show(const struct report *report, struct monge_diagnostics *diag) {
     note(diag);
-    if (diag != report->all) monge_diagnostics_print_new(diag, say_stream());
+    if (!report->all) monge_diagnostics_print_new(diag, say_stream());
 }
 
 void report_close(const struct report *report, struct monge_diagnostics *diag, bool wanted) {
     if (wanted) report_show(report, diag);
-    if (diag != report->all) monge_diagnostics_free(diag);
+    if (!report->all) monge_diagnostics_free(diag);
 }
 
 static void tell(const struct report *report,

@@ -28,6 +28,14 @@ struct problem {
 void report_watch(struct problem *problem);
 void problem_free(struct problem *problem);
 
+/* What this thread tells a document from now on is kept apart; the end returns it, to be added in its turn. NULL: there is
+ * no document. */
+void report_apart(const struct report *report);
+struct monge_diagnostics *report_apart_end(void);
+
+/* Adds that, which is freed; again: it is of the same scene as what was added before. NULL: nothing. */
+void report_add(const struct report *report, struct monge_diagnostics *apart, bool again);
+
 /* Tells of a failure, or a warning, of a code in grammar/diagnostics.yaml. */
 void report_failure(const struct report *report, const char *code, const char *format, ...)
     __attribute__((format(printf, 3, 4)));

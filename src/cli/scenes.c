@@ -232,17 +232,6 @@ static bool is_picture(const struct monge_text *text) {
     return text->size >= 8 && memcmp(text->bytes, "\x89PNG\r\n\x1a\n", 8) == 0;
 }
 
-static void add_list(struct search *search, const char *path) {
-    struct monge_text text = {NULL, 0};
-    if (!*path)
-        report_trouble(search, "@", "a list has a name, or is @-, standard input");
-    else if (read_text(search, path, &text) && is_picture(&text))
-        report_trouble(search, path, "this is a picture, and no list of scenes");
-    else if (text.bytes)
-        add_entries(search, &text, path);
-    monge_text_free(&text);
-}
-
 /* Whether each entry is a path: no scene is so, whose `scene:` is neither there nor called .yaml. */
 static bool is_list(const struct monge_text *text) {
     struct list list = list_begin(text);
@@ -252,6 +241,45 @@ static bool is_list(const struct monge_text *text) {
         paths = is_there(entry) || scene_extension(entry);
     free(list.copy);
     return paths && count > 0;
+}
+
+static void note_list(struct scenes *scenes, const char *path) {
+    scenes->lists = realloc(scenes->lists, (scenes->list_count + 1) * sizeof *scenes->lists);
+    if (!scenes->lists) say_no_memory();
+    scenes->lists[scenes->list_count++] = say_text("%s", path);
+}
+
+/* By the mark at its beginning; every other byte of it would end a name. */
+static bool is_utf16(const struct monge_text *text) {
+    return text->size >= 2 &&
+           (memcmp(text->bytes, "\xFF\xFE", 2) == 0 || memcmp(text->bytes, "\xFE\xFF", 2) == 0);
+}
+
+/* NULL: it may be one. */
+static const char *why_no_list(const char *path, const struct monge_text *text) {
+    if (is_picture(text)) return "this is a picture, and no list of scenes";
+    if (is_utf16(text)) return "this list is in UTF-16: save it as UTF-8";
+    if (scene_extension(path) && !is_list(text)) return "this is a scene, and no list: give it without the @";
+    return NULL;
+}
+
+static void read_list(struct search *search, const char *path) {
+    struct monge_text text = {NULL, 0};
+    if (!read_text(search, path, &text)) return;
+    const char *wrong = why_no_list(path, &text);
+    note_list(search->scenes, path);
+    if (wrong)
+        report_trouble(search, is_stream(path) ? "standard input" : path, wrong);
+    else
+        add_entries(search, &text, path);
+    monge_text_free(&text);
+}
+
+static void add_list(struct search *search, const char *path) {
+    if (*path)
+        read_list(search, path);
+    else
+        report_trouble(search, "@", "a list has a name, or is @-, standard input");
 }
 
 static void add_input(struct search *search) {
@@ -437,6 +465,8 @@ void scenes_free(struct scenes *scenes) {
         free(scenes->all[i].name);
     }
     for (size_t i = 0; i < scenes->missing; i++) free(scenes->lost[i]);
+    for (size_t i = 0; i < scenes->list_count; i++) free(scenes->lists[i]);
+    free(scenes->lists);
     free(scenes->lost);
     free(scenes->all);
     monge_text_free(&scenes->input);

@@ -6,7 +6,7 @@
  *     'k[1-3]*.yaml'  a pattern that the shell has left alone; `**` in it, as the name of a folder, stands for any
  *                     folders, or none; empty files, pipes and devices are left out, as in folders
  *     @list, @-       a file, or standard input, with one of these a line; # begins a comment. Where it has a NUL,
- *                     what is between NULs is a name as it stands
+ *                     what is between NULs is a name as it stands; UTF-16 is refused
  *     -               standard input: a list where each entry is a path, else a scene
  *
  * A scene is called by its file name without .yaml or .yml; with the folders between, as "gallery/chess", from a folder
@@ -29,6 +29,8 @@ struct scenes {
     size_t count;
     struct monge_text input; /* the scene on standard input; without bytes where there is none */
     enum status status;      /* STATUS_TROUBLE: some operand stands for nothing; the reason has been told */
+    char **lists;            /* owned: the files that lists of scenes were read from, */
+    size_t list_count;       /* so many */
     char **lost;             /* owned: such operands, lines of lists and folders, */
     size_t missing;          /* so many */
     bool several;            /* some operand may stand for several: a folder, a pattern, a list */

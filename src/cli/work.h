@@ -15,7 +15,8 @@ struct unit {
     const struct output *output;
     struct picture *pictures; /* those tried so far; a scene that cannot be loaded counts as one */
     size_t count;
-    struct problem problem; /* what went wrong first with the picture at work */
+    struct monge_diagnostics *apart; /* owned: what it has for a document of --format, until its turn */
+    struct problem problem;          /* what went wrong first with the picture at work */
     struct progress_unit progress;
     enum status status;
 };
@@ -33,6 +34,7 @@ struct work {
     const char *scene;  /* of the unit that was told last, */
     char *said; /* what it said, owned; and how often after that the others of the scene said the same */
     size_t repeated;
+    const char *documented; /* the scene of which a document of --format was told last */
     enum status worst;
 };
 

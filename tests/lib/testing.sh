@@ -91,7 +91,7 @@ signalled() {
 # patient TEXT ARGS...: monge renders with more and more samples, until that takes long enough for the text on stderr.
 patient() {
     local samples
-    for samples in 4 16 64 256 1024; do
+    for samples in 4 16 64 256 1024 4096 16384; do
         exits 0 render "${@:2}" --samples $samples --threads 1
         grep -qF -e "$1" err && break
     done

@@ -223,6 +223,41 @@ static void a_place_outlives_its_source(void **state) {
     diag_free(&diag);
 }
 
+static void add_mistakes(struct diagnostics *diag, const struct source *source, int count) {
+    diag_begin(diag);
+    struct diagnostic *d = diag_error(diag, (struct span){source, 0, 1, 1}, "code", "first");
+    diag_help(diag, d, "help");
+    diag_related(diag, d, (struct span){source, 0, 2, 1}, "related");
+    for (int i = 1; i < count; i++) diag_error(diag, (struct span){source, 0, 2, 1}, "code", "e%d", i);
+}
+
+static void what_is_appended_outlives_its_list(void **state) {
+    (void)state;
+    const struct source source = {"f", "abc", 3};
+    struct diagnostics diag = {0}, one = {0}, two = {0}, full = {0};
+    add_mistakes(&one, &source, 1);
+    add_mistakes(&two, &source, 2);
+    add_mistakes(&full, &source, 60);
+    diag_append(&diag, &one, false);
+    diag_append(&diag, &two, true); /* its first is told again */
+    assert_int_equal(diag.kept, 2);
+    assert_int_equal(diag.errors, 3);
+    diag_append(&diag, &one, false);
+    assert_int_equal(diag.kept, 3);
+    diag_append(&diag, &full, false);
+    assert_int_equal(diag.kept, 53);
+    diag_free(&one);
+    diag_free(&two);
+    diag_free(&full);
+    char *text = printed(&diag);
+    assert_non_null(
+        strstr(text, "f:1:2: error[code]: first\n    1 | abc\n      |  ^ help\nf:1:3: note: related\n"));
+    assert_non_null(strstr(text, "f:1:3: error[code]: e1\n"));
+    assert_non_null(strstr(text, "... and 10 more\n"));
+    free(text);
+    diag_free(&diag);
+}
+
 int main(void) {
     struct CMUnitTest tests[COUNT(rows)];
     for (size_t i = 0; i < COUNT(rows); i++)
@@ -236,6 +271,7 @@ int main(void) {
         cmocka_unit_test(the_same_at_the_same_place_counts_once),
         cmocka_unit_test(fifty_are_kept_and_all_are_counted),
         cmocka_unit_test(a_place_outlives_its_source),
+        cmocka_unit_test(what_is_appended_outlives_its_list),
     };
     return cmocka_run_group_tests_name("rows", tests, NULL, NULL) +
            cmocka_run_group_tests_name("diag", others, NULL, NULL);

@@ -60,13 +60,8 @@ static bool is_file_target(const struct target *target) {
 
 /* What scenes, their includes, and goldens are called: none of the documents is that. */
 static bool has_ending_of_input(const char *path) {
-    static const char *const endings[] = {".yaml", ".yml", ".png", ".lock"};
-    const size_t length = strlen(path);
-    for (size_t i = 0; i < sizeof endings / sizeof *endings; i++) {
-        const size_t size = strlen(endings[i]);
-        if (length >= size && strcasecmp(path + length - size, endings[i]) == 0) return true;
-    }
-    return false;
+    const char *dot = strrchr(path, '.');
+    return path_input_extension(path) || (dot && strcasecmp(dot, ".lock") == 0);
 }
 
 static bool spares_inputs(const struct golden_run *run, const struct target *target) {
