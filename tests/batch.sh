@@ -116,11 +116,17 @@ for order in LE BE; do # as some editors save texts; names between NULs, one of 
     printf '\xFF\xFEs\x00/\x00a\x00.\x00y\x00a\x00m\x00l\x00\n\x00' >wide
     [ $order = LE ] || printf '\xFE\xFF\x00s\x00/\x00a\x00.\x00y\x00a\x00m\x00l\x00\n' >wide
     exits 2 render @wide "${small[@]}" -o l/; ok "a list in UTF-16$order" [ "$(cat err)" = 'monge: error[no-match]: wide: this list is in UTF-16: save it as UTF-8' ]; missing l
+    tail -c +3 wide >bare; exits 2 render @bare "${small[@]}" -o l/; err_has 'bare: this list is in UTF-16: save it as UTF-8'; missing l
     last='render @- <wide'; "$monge" render @- "${small[@]}" -o l/ <wide >out 2>err; ok "is refused" [ $? -eq 2 ]; err_has 'standard input: this list is in UTF-16: save it as UTF-8'; missing l
     last='render - <wide'; "$monge" render - "${small[@]}" -o l/ <wide >out 2>err; ok "with - too" [ $? -ne 0 ]; err_has 'save the file as UTF-8'; rm -rf l
 done
 exits 2 render @s/a.yaml "${small[@]}" -o l/; ok "a scene is no list" [ "$(cat err)" = 'monge: error[no-match]: s/a.yaml: this is a scene, and no list: give it without the @' ]; missing l
 cp list list.yml; exits 0 check @list.yml; out_is "$(printf 's/%s: ok\n' a.yaml inner/b.yml)"; rm list.yml
+cp list piped
+for option in --stats --log; do for stream in - @-; do
+    last="render $stream $option piped <piped"; "$monge" render $stream "${small[@]}" -o l/ $option piped <piped >out 2>err; status=$?
+    ok 'a list on standard input is spared' [ $status -eq 2 ]; err_has "piped would be written over by the output of $option"; ok 'it is as it was' cmp -s list piped; missing l
+done; done
 cp list list.before; ln list list.hard; ln -s list list.soft
 for option in --stats --log; do for over in list ./list list.hard list.soft; do
     exits 2 render s/a.yaml @list "${small[@]}" -o l/ $option $over; err_has "list would be written over by the output of $option"; same list list.before; missing l

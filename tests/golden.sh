@@ -323,7 +323,7 @@ ok 'the first rule that matches' grep -qa 'options.*--size 20x10' g/one.png
 ok 'it alone' sh -c '! grep -qa -e --samples g/one.png'
 ok 'a rule for the rest' grep -qa -e '--samples 2' g/two.png
 sed -i 's/20x10/21x10/' g/golden.yaml
-exits 1 test s --golden g; says changed one; out_has 'another size: 21x10, the golden 20x10'; out_has 'the options differ'; out_has '--size 21x10 -o one.png'
+exits 1 test s --golden g; says changed one; out_has 'another size: 21x10, the golden 20x10'; ok 'in JSON, too' grep -q '"message": "another size: 21x10, the golden 20x10"' monge-test/results.json; out_has 'the options differ'; out_has '--size 21x10 -o one.png'
 sed -i 's/21x10/22x10/' g/golden.yaml
 exits 1 accept --golden g; err_has 'one is left as it is: its options in golden.yaml have changed since the run'
 
@@ -460,6 +460,8 @@ shared 's/one.yaml and s/one.object.yaml would both write one.object.png'
 mv s/one.object.yaml s/one.objects.yaml; exits 1 test s --golden g -q; no_err # nor is depth a PNG
 fresh 'rules: [{scenes: one, aov: true, options: "-D a=1,2"}]'; sed -i '1i params: {a: 1}' s/one.yaml; cp s/one.yaml s/one-a=2.normal.yaml
 shared 's/one.yaml and s/one-a=2.normal.yaml would both write one-a=2.normal.png'
+fresh 'kind: both'; mkdir s/golden.lock; cp s/two.yaml s/golden.lock/x.yaml
+shared 'monge test writes golden.lock, which is a folder of what s/golden.lock/x.yaml writes, golden.lock/x.png'
 fresh; mkdir s/one.png; cp s/two.yaml s/one.png/x.yaml; cp s/two.yaml 's/one.png!.yaml'
 shared 's/one.yaml writes one.png, which is a folder of what s/one.png/x.yaml writes, one.png/x.png'
 fresh 'rules: [{scenes: one, aov: true, options: --frames all}]'; sed -i '1i animation: {frames: 2}' s/one.yaml
@@ -911,11 +913,11 @@ fi
 fresh
 
 # that of a report takes one, and no other: not what its name would match as a glob, nor whatever a shell makes of it
-rm -rf s 'g h' t; scene 's/a*.yaml' red; scene 's/ab.yaml' gold; scene "s/[a] 'b.yaml" teal
+rm -rf s 'g h' t; scene 's/a*.yaml' red; scene 's/ab.yaml' gold; scene "s/[a] 'b.yaml" teal; scene s/-c.yaml teal
 exits 1 test s --golden 'g h' --output t; out_has "\`monge accept --golden 'g h' --output t\` takes"
 mkdir bin; ln -s "$monge" bin/monge
 if have python3; then
-    for name in 'a*' "[a] 'b"; do
+    for name in 'a*' "[a] 'b" -c; do
         python3 -c 'import json, sys; print([s["accept_command"] for s in json.load(open("t/results.json"))["scenes"] if s["name"] == sys.argv[1]][0])' "$name" >command
         env PATH="$PWD/bin:$PATH" sh ./command >out 2>err; ok "$name is taken by its command" [ -s "g h/$name.png" ]
         ok 'alone' [ "$(grep -c '^took' out)" -eq 1 ]

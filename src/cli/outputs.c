@@ -198,8 +198,10 @@ static bool make_room(struct plan *plan, size_t more) {
 }
 
 static bool spares(const char *option, const char *path, const char *read) {
-    if (!path || path_is_special(path) || !path_is_same(path, read)) return true;
-    say_usage(COMMAND_RENDER, "%s would be written over by the output of %s", read, option);
+    const char *file = is_stream(read) ? "/dev/stdin" : read;
+    if (!path || path_is_special(path) || !path_is_same(path, file)) return true;
+    say_usage(COMMAND_RENDER, "%s would be written over by the output of %s", is_stream(read) ? path : read,
+              option);
     return false;
 }
 

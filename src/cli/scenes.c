@@ -249,10 +249,22 @@ static void note_list(struct scenes *scenes, const char *path) {
     scenes->lists[scenes->list_count++] = say_text("%s", path);
 }
 
-/* By the mark at its beginning; every other byte of it would end a name. */
+/* Whether every other byte from `first` on is NUL, and there are folders, extensions or lines in between: as names between NULs
+ * these would be "/", "." and such. */
+static bool is_every_other_nul(const struct monge_text *text, size_t first) {
+    bool found = false;
+    for (size_t i = 0; i + 1 < text->size; i += 2) {
+        if (text->bytes[i + first] != '\0') return false;
+        found |= strchr("/.\n", text->bytes[i + 1 - first]) != NULL && text->bytes[i + 1 - first];
+    }
+    return found;
+}
+
+/* By the mark at its beginning, or without one; every other byte of it would end a name. */
 static bool is_utf16(const struct monge_text *text) {
-    return text->size >= 2 &&
-           (memcmp(text->bytes, "\xFF\xFE", 2) == 0 || memcmp(text->bytes, "\xFE\xFF", 2) == 0);
+    const bool marked = text->size >= 2 &&
+                        (memcmp(text->bytes, "\xFF\xFE", 2) == 0 || memcmp(text->bytes, "\xFE\xFF", 2) == 0);
+    return marked || is_every_other_nul(text, 0) || is_every_other_nul(text, 1);
 }
 
 /* NULL: it may be one. */
@@ -286,6 +298,7 @@ static void add_input(struct search *search) {
     struct monge_text text = {NULL, 0};
     if (!read_text(search, "-", &text)) return;
     if (is_list(&text)) {
+        note_list(search->scenes, "-");
         add_entries(search, &text, "-");
         monge_text_free(&text);
     } else {

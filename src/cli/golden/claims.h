@@ -12,6 +12,9 @@ struct golden_claims {
     size_t count;
 };
 
+/* With golden.lock, which is the goldens' own. */
+void golden_claims_begin(struct golden_claims *claims);
+
 /* That the scene has a golden of that name, with passes or without. `scene` must last as long as the claims. */
 void golden_claims_add(struct golden_claims *claims, const char *name, bool passes, const char *scene);
 

@@ -7,6 +7,7 @@
 #include "cli/aov.h"
 #include "cli/golden/folder.h"
 #include "cli/golden/take.h"
+#include "cli/golden/tell.h"
 #include "cli/paths.h"
 #include "cli/say.h"
 #include "cli/words.h"
@@ -188,11 +189,20 @@ static char *glob_of(const char *name) {
 
 static void put_accept_command(FILE *out, const char *accept, const struct golden_case *c) {
     if (!accept || !golden_can_take(c) || c->taken) return;
-    char *glob = glob_of(c->name), *word = word_quoted(glob), *command = say_text("%s %s", accept, word);
+    char *glob = glob_of(c->name), *word = word_quoted(glob);
+    char *command = say_text("%s %s%s", accept, *c->name == '-' ? "-- " : "", word);
     put_text(out, "accept_command", command);
     free(command);
     free(word);
     free(glob);
+}
+
+/* Where pixels cannot be compared there are no metrics: why that is so. */
+static void put_unlike(FILE *out, const struct golden_case *c) {
+    if (!c->compared || !isnan(c->difference.max) || c->message) return;
+    char *detail = golden_detail(c);
+    put_text(out, "message", detail);
+    free(detail);
 }
 
 static void put_case(FILE *out, const char *accept, const struct golden_case *c) {
@@ -208,6 +218,7 @@ static void put_case(FILE *out, const char *accept, const struct golden_case *c)
     put_flag(out, "taken", c->taken);
     put_text(out, "message", c->message);
     if (c->compared) put_difference(out, &c->difference);
+    put_unlike(out, c);
     put_tolerance(out, c);
     put_changes(out, c);
     put_causes(out, c);

@@ -130,7 +130,8 @@ static void claim_scene(struct golden_claims *claims, const struct golden_scene 
 }
 
 static bool check_files(const struct golden_run *run) {
-    struct golden_claims claims = {0};
+    struct golden_claims claims;
+    golden_claims_begin(&claims);
     for (size_t i = 0; i < run->count; i++)
         if (!run->scenes[i].rule->args.option[OPTION_FRAMES].given) claim_scene(&claims, &run->scenes[i]);
     const bool good = golden_claims_check(&claims);
@@ -277,7 +278,8 @@ static bool gather(struct test *test) {
 
 /* With frames, of which the scenes alone know how many there are. */
 static bool check_names(const struct golden_case *cases, size_t count) {
-    struct golden_claims claims = {0};
+    struct golden_claims claims;
+    golden_claims_begin(&claims);
     for (size_t i = 0; i < count; i++)
         golden_claims_add(&claims, cases[i].name, cases[i].aov && cases[i].status != GOLDEN_BROKEN,
                           cases[i].scene);
