@@ -175,6 +175,13 @@ for kind in png hash both; do
     exits 0 accept --golden g; out_has '0 taken'
 done
 
+# a report of what is taken shows what the golden was
+fresh 'rules: [{scenes: one, aov: true}]'; exits 0 test s --golden g -q --update-only-failed; cp -r g gkept
+scene s/one.yaml blue; exits 0 test s --golden g -q --update-only-failed --report page
+for file in one.png one.object.png one.depth.pfm; do ok "$file is kept" cmp -s gkept/$file monge-test/old/$file; done
+ok 'the report has it' grep -q 'data-path="monge-test/old/one.png"' page/index.html; ok 'the golden is the new one' cmp -s g/one.png monge-test/new/one.png
+exits 0 test s --golden g; missing monge-test/old/one.png monge-test/old/one.object.png; rm -rf page gkept
+
 # ---- Goldens that others change between run and accept ----
 
 for kind in png hash both; do

@@ -140,6 +140,21 @@ static bool take_picture(const char *folder, const struct golden_case *c) {
     return good;
 }
 
+bool golden_keep(const char *output, struct golden_case *c) {
+    char *folder = path_below(output, "old", ""), *to = path_below(folder, c->name, ".png");
+    bool good = strcmp(to, c->golden_path) == 0 || (path_make_folders(to) && golden_copy(c->golden_path, to));
+    for (enum monge_layer layer = 0; good && layer < MONGE_LAYERS; layer++) {
+        char *from = aov_path(layer, c->golden_path), *copy = aov_path(layer, to);
+        good = !path_is_file(from) || path_is_same(from, copy) || golden_copy(from, copy);
+        free(copy);
+        free(from);
+    }
+    free(folder);
+    free(good ? c->golden_path : to);
+    if (good) c->golden_path = to;
+    return good;
+}
+
 bool golden_take(const char *folder, struct golden_lock *lock, const struct golden_case *c) {
     if (c->kind != MONGE_GOLDEN_HASH && !take_picture(folder, c)) return false;
     if (c->kind != MONGE_GOLDEN_PNG)

@@ -17,6 +17,10 @@ bool golden_is_taken(const char *folder, const struct golden_lock *lock, const s
 /* Whether golden_take would write into the folder of the goldens, not where a link leads. False, with the reason told. */
 bool golden_check_places(const char *folder, const struct golden_case *c);
 
+/* Copies the picture of the golden, with its passes, to OUTPUT/old/NAME.png: its path from now on. False, with the reason
+ * told. */
+bool golden_keep(const char *output, struct golden_case *c);
+
 /* Makes the new picture of the case its golden: in FOLDER, and in the lock, which is to be written. False, with the
  * reason told. */
 bool golden_take(const char *folder, struct golden_lock *lock, const struct golden_case *c);

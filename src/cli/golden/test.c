@@ -288,6 +288,11 @@ static bool check_names(const struct golden_case *cases, size_t count) {
     return good;
 }
 
+/* For the report, which is to show both. */
+static bool keep_old(const struct test *test, struct golden_case *c) {
+    return !wants(test, OPTION_REPORT) || !c->golden_path || golden_keep(test->run.output, c);
+}
+
 static bool take_new(struct test *test) {
     struct golden_run *run = &test->run;
     golden_hold(run->folder); /* others may have written the lock during the run */
@@ -299,7 +304,7 @@ static bool take_new(struct test *test) {
         struct golden_case *c = &test->results.cases[i];
         if (!golden_can_take(c)) continue;
         if (golden_is_as_noted(run->folder, &run->lock, c))
-            good &= c->taken = golden_take(run->folder, &run->lock, c);
+            good &= c->taken = keep_old(test, c) && golden_take(run->folder, &run->lock, c);
         else
             say_error("%s is left as it is: its golden has changed during the run", c->name);
         taken += c->taken;

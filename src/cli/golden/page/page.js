@@ -310,7 +310,7 @@ async function showScene(scene) {
   const size = golden ?? fresh;
   $('detail').replaceChildren(
     make('div', {class: 'title'}, make('h2', {}, scene.name), make('span', {class: `status ${scene.status}`}, scene.status),
-      make('span', {class: 'soft'}, [scene.scene, size ? `${size.width} x ${size.height}` : null, scene.seconds ? `${scene.seconds.toFixed(2)} s` : null].filter(Boolean).join('   '))),
+      make('span', {class: 'soft'}, [scene.scene, size ? `${size.width} x ${size.height}` : null, scene.seconds ? `${scene.seconds.toFixed(2)} s` : null, scene.taken ? 'taken: the new picture is the golden now' : null].filter(Boolean).join('   '))),
     ...(scene.message ? [make('h3', {}, 'What is wrong'), make('pre', {class: 'message'}, scene.message)] : []),
     ...(size ? [toolbar(scene, both), panes, make('p', {id: 'values'})] : []),
     ...changesList(scene), ...metricsTable(scene), ...commandLines(scene));
