@@ -192,7 +192,7 @@ INLINE uint32_t count_together(const uint8_t *row, size_t stride, uint32_t heigh
     const uint32_t rows = (uint32_t)rows_of_wave(step);
     if (height < rows || stride - 1 < rows * step) return 1;
     for (uint32_t i = 0; i < rows; i++)
-        if (row[i * stride - 1] != FILTER_PAETH) return 1;
+        if ((row - 1)[i * stride] != FILTER_PAETH) return 1;
     return rows;
 }
 
