@@ -265,6 +265,25 @@ static void means_do_not_depend_on_how_it_is_stored(void **state) {
     }
 }
 
+static uint8_t dots(size_t x, size_t y, size_t i) {
+    static const struct {
+        size_t x;
+        uint8_t by;
+    } rows[] = {{5, 9}, {40, 5}, {45, 3}, {90, 1}, {42, 90}}; /* a row each */
+    return (uint8_t)(flat(x, y, i) + (y < COUNT(rows) && i == 1 && x == rows[y].x ? rows[y].by : 0));
+}
+
+/* Beside those before, in one that they lie around: one further to the right that differs by less, one that differs by most. */
+static void each_of_neighbors_counts(void **state) {
+    (void)state;
+    struct monge_difference d = compare(SAMPLE(100, 3, .byte = flat), SAMPLE(100, 3, .byte = dots));
+    assert_true(d.different == 3 && d.bounds.x == 5 && d.bounds.width == 41);
+    d = compare(SAMPLE(100, 5, .byte = flat), SAMPLE(100, 5, .byte = dots));
+    assert_true(d.different == 5 && d.bounds.x == 5 && d.bounds.width == 86 && d.bounds.height == 5);
+    assert_near(d.max, 90 / 255.0, 1e-15, "the largest");
+    assert_true(d.max_x == 42 && d.max_y == 4);
+}
+
 static uint8_t black(size_t x, size_t y, size_t i) { return (void)x, (void)y, (void)i, 0; }
 static uint8_t white(size_t x, size_t y, size_t i) { return (void)x, (void)y, (void)i, 255; }
 
@@ -390,6 +409,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(palettes_are_looked_up, enter_folder, leave_folder),
         cmocka_unit_test_setup_teardown(bits_count, enter_folder, leave_folder),
         cmocka_unit_test_setup_teardown(means_do_not_depend_on_how_it_is_stored, enter_folder, leave_folder),
+        cmocka_unit_test_setup_teardown(each_of_neighbors_counts, enter_folder, leave_folder),
         cmocka_unit_test_setup_teardown(nothing_is_worse_than_black_and_white, enter_folder, leave_folder),
         cmocka_unit_test_setup_teardown(spaces_and_sizes_count, enter_folder, leave_folder),
         cmocka_unit_test_setup_teardown(equal_files_are_the_same, enter_folder, leave_folder),
