@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/parallel.h"
+#include "image/filters.h"
 #include "image/seen.h"
 
 /* ---- What is ignored ---- */
@@ -50,14 +51,15 @@ static bool find_ignored(struct comparison *c, const struct monge_compare *how) 
 /* ---- Decoding ---- */
 
 struct decoding {
-    struct monge_picture *picture[3]; /* NULL: none */
+    struct monge_picture *picture[3]; /* a, b, mask; NULL: none */
     char reason[3][PICTURE_REASON_SIZE];
     bool good[3];
 };
 
 static void decode_one(void *context, unsigned thread) {
     struct decoding *d = context;
-    d->good[thread] = !d->picture[thread] || picture_decode(d->picture[thread], d->reason[thread]);
+    bool (*decode)(struct monge_picture *, char *) = thread < 2 ? picture_inflate : picture_decode;
+    d->good[thread] = !d->picture[thread] || decode(d->picture[thread], d->reason[thread]);
 }
 
 /* The mask is most often of a palette, and so the longest. */
@@ -71,6 +73,72 @@ static bool decode_all(struct decoding *d, char reason[PICTURE_REASON_SIZE],
         return false;
     }
     return true;
+}
+
+/* ---- Filters: those of rows that are the same in both pictures need not be undone ---- */
+
+struct undoing {
+    const struct comparison *comparison;
+    uint8_t *needed; /* of which rows; NULL: of all that are left */
+    bool good[2];
+};
+
+static bool is_filtered(const struct monge_picture *picture) {
+    return picture->filtered && !memchr(picture->filtered, 0, picture->height);
+}
+
+/* Whether the rows of both can be compared as they are in the files. */
+static bool are_alike(const struct monge_picture *a, const struct monge_picture *b) {
+    return a != b && is_filtered(a) && is_filtered(b) && a->bits == b->bits && a->channels == b->channels;
+}
+
+static void match_rows(void *context, unsigned thread) {
+    const struct comparison *c = context;
+    const size_t stride = c->a->stride;
+    for (uint64_t y = thread; y < c->a->height; y += c->threads)
+        c->equal[y] = memcmp(c->a->rows + y * stride - 1, c->b->rows + y * stride - 1, stride) == 0;
+}
+
+/* Rows are equal which are so with their filters, and so are those above that they look at. */
+static void find_equal(struct comparison *c) {
+    parallel_run(c->threads, match_rows, c);
+    for (uint32_t y = 1; y < c->a->height; y++)
+        if (filters_look_up(picture_row(c->a, y))) c->equal[y] &= c->equal[y - 1];
+}
+
+/* Needed are those that are not equal, and what is above a row that is needed and looks at it. */
+static void find_needed(const struct comparison *c, uint8_t *needed) {
+    const uint32_t height = c->a->height;
+    for (uint32_t y = height; y-- > 0;)
+        needed[y] =
+            !c->equal[y] ||
+            (y + 1 < height && needed[y + 1] &&
+             (filters_look_up(picture_row(c->a, y + 1)) || filters_look_up(picture_row(c->b, y + 1))));
+}
+
+static void undo_one(void *context, unsigned thread) {
+    struct undoing *u = context;
+    struct monge_picture *a = u->comparison->a, *b = u->comparison->b;
+    u->good[thread] = (thread > 0 && a == b) || picture_undo(thread > 0 ? b : a, u->needed);
+}
+
+static bool undo_both(const struct comparison *c, uint8_t *needed) {
+    struct undoing undoing = {.comparison = c, .needed = needed};
+    parallel_run(2, undo_one, &undoing);
+    return undoing.good[0] && undoing.good[1];
+}
+
+/* The filters of all rows, or where that is enough of those that are needed. */
+static bool undo_filters(struct comparison *c, bool all) {
+    if (all || !are_alike(c->a, c->b)) return undo_both(c, NULL);
+    uint8_t *needed = malloc(c->a->height);
+    c->equal = malloc(c->a->height);
+    const bool room = needed && c->equal;
+    if (room) find_equal(c);
+    if (room) find_needed(c, needed);
+    const bool good = room && undo_both(c, needed);
+    free(needed);
+    return good;
 }
 
 static bool no_memory(char reason[PICTURE_REASON_SIZE]) {
@@ -90,16 +158,23 @@ static bool check_mask(const struct monge_picture *a, const struct monge_picture
 bool comparison_begin(struct comparison *c, struct monge_picture *a, struct monge_picture *b,
                       const struct monge_compare *how, char reason[PICTURE_REASON_SIZE],
                       const struct monge_picture **about) {
-    *c = (struct comparison){a, b, how->threads ? how->threads : parallel_processors(), NULL, 0};
+    *c = (struct comparison){.a = a, .b = b};
+    c->threads = how->threads ? how->threads : parallel_processors();
     if (c->threads > PARALLEL_MAX_THREADS) c->threads = PARALLEL_MAX_THREADS;
     struct decoding decoding = {.picture = {a, b == a ? NULL : b, how->mask}};
-    if (how->mask == a || how->mask == b) decoding.picture[2] = NULL;
+    const bool masks_itself = how->mask == a || how->mask == b;
+    if (masks_itself) decoding.picture[2] = NULL;
     *about = a;
     return check_mask(a, how->mask, reason, about) && decode_all(&decoding, reason, about) &&
-           (find_ignored(c, how) || no_memory(reason));
+           ((undo_filters(c, masks_itself) && find_ignored(c, how)) || no_memory(reason));
 }
 
-void comparison_end(struct comparison *c) { free(c->ignored); }
+bool comparison_decode(const struct comparison *c) { return undo_both(c, NULL); }
+
+void comparison_end(struct comparison *c) {
+    free(c->ignored);
+    free(c->equal);
+}
 
 /* ---- The whole ---- */
 
@@ -129,14 +204,13 @@ static void tell_same(const struct comparison *c, struct monge_difference *out) 
 
 static bool compare_decoded(struct comparison *c, const struct monge_compare *how,
                             struct monge_difference *out) {
+    const bool ssim = how->metrics >> MONGE_METRIC_SSIM & 1, flip = how->metrics >> MONGE_METRIC_FLIP & 1;
     compare_pixels(c, how->max_delta, out);
     out->same = out->unlike == MONGE_UNLIKE_NOTHING && out->different == 0;
-    if (how->metrics >> MONGE_METRIC_SSIM & 1 && out->different > 0 && !seen_ssim(c, &out->ssim))
-        return false;
-    if (how->metrics >> MONGE_METRIC_FLIP & 1 && out->different > 0 &&
-        !seen_flip(c, how->ppd > 0.0 ? how->ppd : MONGE_DEFAULT_PPD, NULL, &out->flip))
-        return false;
-    return true;
+    if (out->different == 0 || !(ssim || flip)) return true;
+    const double ppd = how->ppd > 0.0 ? how->ppd : MONGE_DEFAULT_PPD;
+    return comparison_decode(c) && (!ssim || seen_ssim(c, &out->ssim)) &&
+           (!flip || seen_flip(c, ppd, NULL, &out->flip));
 }
 
 bool compare_pictures(struct monge_picture *a, struct monge_picture *b, const struct monge_compare *how,

@@ -270,8 +270,10 @@ INLINE void count_bands(void *context, unsigned thread) {
     struct job *job = context;
     struct tally t = {0};
     const uint32_t height = job->comparison->a->height;
+    const uint8_t *equal = job->comparison->equal;
     for (uint64_t band; (band = (uint64_t)BAND * atomic_fetch_add(&job->next, 1)) < height;)
-        for (uint32_t y = (uint32_t)band; y < height && y < band + BAND; y++) count_row(job, &t, y);
+        for (uint32_t y = (uint32_t)band; y < height && y < band + BAND; y++)
+            if (!equal || !equal[y]) count_row(job, &t, y);
     job->tallies[thread] = t;
 }
 

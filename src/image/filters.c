@@ -176,63 +176,73 @@ INLINE void add_paeth_wave(uint8_t *row, const uint8_t *above, size_t stride, si
         add_paeth(row + k * stride, row + (k - 1) * stride, size - k * step, size, step);
 }
 
-INLINE bool undo_filter(uint8_t *row, const uint8_t *above, size_t size, size_t step) {
+INLINE void undo_filter(uint8_t *row, const uint8_t *above, size_t size, size_t step) {
     switch (row[-1]) {
-    case FILTER_NONE: return true;
-    case FILTER_SUB: add_left(row, size, step); return true;
-    case FILTER_UP: add_above(row, above, size); return true;
-    case FILTER_AVERAGE: add_average(row, above, size, step); return true;
-    case FILTER_PAETH: add_paeth(row, above, 0, size, step); return true;
+    case FILTER_SUB: add_left(row, size, step); break;
+    case FILTER_UP: add_above(row, above, size); break;
+    case FILTER_AVERAGE: add_average(row, above, size, step); break;
+    case FILTER_PAETH: add_paeth(row, above, 0, size, step); break;
     }
-    return false;
 }
 
-/* How many rows can be undone together: those of a wave, or one. */
-INLINE uint32_t count_together(const uint8_t *row, size_t stride, uint32_t height, size_t step) {
+/* ---- All rows ---- */
+
+struct filtered {
+    uint8_t *rows;
+    const uint8_t *zero;  /* a row of zeros, what is above the first */
+    const uint8_t *which; /* NULL: all */
+    size_t stride;
+    uint32_t height;
+};
+
+/* How many rows from y on can be undone together: those of a wave, or one. */
+INLINE uint32_t count_together(const struct filtered *f, uint32_t y, size_t step) {
     const uint32_t rows = (uint32_t)rows_of_wave(step);
-    if (height < rows || stride - 1 < rows * step) return 1;
-    for (uint32_t i = 0; i < rows; i++)
-        if ((row - 1)[i * stride] != FILTER_PAETH) return 1;
+    if (f->height - y < rows || f->stride - 1 < rows * step) return 1;
+    for (uint32_t i = y; i < y + rows; i++)
+        if ((f->rows - 1)[i * f->stride] != FILTER_PAETH) return 1;
     return rows;
 }
 
-/* Of all rows in their place. `above` is a row of zeros, what is above the first. */
-INLINE bool undo_all(uint8_t *rows, const uint8_t *above, size_t stride, uint32_t height, size_t step) {
-    for (uint32_t y = 0, count; y < height; y += count) {
-        uint8_t *row = rows + y * stride;
-        count = count_together(row, stride, height - y, step);
+INLINE void undo_all(const struct filtered *f, size_t step) {
+    for (uint32_t y = 0, count = 1; y < f->height; y += count, count = 1) {
+        uint8_t *row = f->rows + y * f->stride;
+        const uint8_t *above = y > 0 ? row - f->stride : f->zero;
+        if (f->which && !f->which[y]) continue;
+        count = count_together(f, y, step);
         if (count > 1)
-            add_paeth_wave(row, above, stride, stride - 1, step);
-        else if (!undo_filter(row, above, stride - 1, step))
-            return false;
-        above = row + (count - 1) * stride;
+            add_paeth_wave(row, above, f->stride, f->stride - 1, step);
+        else
+            undo_filter(row, above, f->stride - 1, step);
     }
+}
+
+INLINE void undo_by_step(const struct filtered *f, size_t step) {
+    switch (step) {
+    case 1: undo_all(f, 1); break;
+    case 2: undo_all(f, 2); break;
+    case 3: undo_all(f, 3); break;
+    case 4: undo_all(f, 4); break;
+    case 6: undo_all(f, 6); break;
+    case 8: undo_all(f, 8); break;
+    }
+}
+
+static void undo_plain(const struct filtered *f, size_t step) { undo_by_step(f, step); }
+WIDE static void undo_wide(const struct filtered *f, size_t step) { undo_by_step(f, step); }
+
+bool filters_are_known(const uint8_t *rows, size_t stride, uint32_t height) {
+    for (uint32_t y = 0; y < height; y++)
+        if ((rows - 1)[y * stride] > FILTER_PAETH) return false;
     return true;
 }
 
-INLINE bool undo_by_step(uint8_t *rows, const uint8_t *above, size_t stride, uint32_t height, size_t step) {
-    switch (step) {
-    case 1: return undo_all(rows, above, stride, height, 1);
-    case 2: return undo_all(rows, above, stride, height, 2);
-    case 3: return undo_all(rows, above, stride, height, 3);
-    case 4: return undo_all(rows, above, stride, height, 4);
-    case 6: return undo_all(rows, above, stride, height, 6);
-    case 8: return undo_all(rows, above, stride, height, 8);
-    }
-    return false;
-}
+bool filters_look_up(const uint8_t *row) { return row[-1] >= FILTER_UP; }
 
-static bool undo_plain(uint8_t *rows, const uint8_t *above, size_t stride, uint32_t height, size_t step) {
-    return undo_by_step(rows, above, stride, height, step);
-}
-
-WIDE static bool undo_wide(uint8_t *rows, const uint8_t *above, size_t stride, uint32_t height, size_t step) {
-    return undo_by_step(rows, above, stride, height, step);
-}
-
-bool filters_undo(uint8_t *rows, size_t stride, uint32_t height, size_t step) {
+bool filters_undo(uint8_t *rows, size_t stride, uint32_t height, size_t step, const uint8_t *which) {
     uint8_t *zero = calloc(1, stride + FILTERS_ROOM);
-    const bool good = zero && (has_wide() ? undo_wide : undo_plain)(rows, zero, stride, height, step);
+    const struct filtered filtered = {rows, zero, which, stride, height};
+    if (zero) (has_wide() ? undo_wide : undo_plain)(&filtered, step);
     free(zero);
-    return good;
+    return zero;
 }

@@ -80,7 +80,7 @@ static bool write_file(struct heat *heat, const struct monge_compare *how, const
                        char reason[PICTURE_REASON_SIZE]) {
     struct png_file file = {.reason = ""};
     const size_t row_size = (size_t)heat->comparison->a->width * 3;
-    const bool made = make_errors(heat, how);
+    const bool made = comparison_decode(heat->comparison) && make_errors(heat, how);
     const bool written = made && png_file_write(&file, path, row_size, put_heat, heat);
     if (!written) snprintf(reason, PICTURE_REASON_SIZE, "%s", made ? file.reason : strerror(ENOMEM));
     free(heat->errors);

@@ -377,6 +377,7 @@ void picture_close(struct monge_picture *picture) {
     for (size_t i = 0; i < picture->text_count; i++) free(picture->texts[i].key);
     free(picture->texts);
     free(picture->space.profile);
+    free(picture->filtered);
     free(picture->memory);
     free(picture->file);
     free(picture->name);
@@ -423,9 +424,14 @@ static bool decode_by_libpng(struct monge_picture *picture, char reason[PICTURE_
     return false;
 }
 
-bool picture_decode(struct monge_picture *picture, char reason[PICTURE_REASON_SIZE]) {
+bool picture_inflate(struct monge_picture *picture, char reason[PICTURE_REASON_SIZE]) {
     if (picture->memory) return true;
     if (!has_data(picture)) return fail(reason, "it is damaged: it has too few pixels");
-    picture_decode_plain(picture);
+    picture_inflate_plain(picture);
     return picture->memory || decode_by_libpng(picture, reason);
+}
+
+bool picture_decode(struct monge_picture *picture, char reason[PICTURE_REASON_SIZE]) {
+    if (!picture_inflate(picture, reason)) return false;
+    return picture_undo(picture, NULL) || fail(reason, "%s", strerror(ENOMEM));
 }

@@ -43,9 +43,10 @@ struct monge_picture {
     struct color_space space;
     struct picture_text *texts;
     size_t text_count;
-    uint8_t *memory; /* NULL: not decoded */
-    uint8_t *rows;   /* in `memory` */
-    size_t stride;   /* bytes from one row to the next */
+    uint8_t *memory;   /* NULL: not decoded */
+    uint8_t *rows;     /* in `memory` */
+    size_t stride;     /* bytes from one row to the next */
+    uint8_t *filtered; /* 1 for each row of which the filter is not undone yet; NULL: none; owned */
 };
 
 enum { PICTURE_REASON_SIZE = 200 };
@@ -63,9 +64,15 @@ void picture_close(struct monge_picture *picture);
  * memory for them. */
 bool picture_decode(struct monge_picture *picture, char reason[PICTURE_REASON_SIZE]);
 
+/* The same, but for the filters of rows: those are left to be undone that picture->filtered tells. */
+bool picture_inflate(struct monge_picture *picture, char reason[PICTURE_REASON_SIZE]);
+
 /* The same by libdeflate: several times as fast as libpng's way, and giving up
  * wherever something is out of the ordinary. picture->memory stays NULL when it fails. */
-void picture_decode_plain(struct monge_picture *picture);
+void picture_inflate_plain(struct monge_picture *picture);
+
+/* Undoes the filters that are left, or where none has been undone those of rows for which `which` is 1: as filters_undo. */
+bool picture_undo(struct monge_picture *picture, const uint8_t *which);
 
 static inline const uint8_t *picture_row(const struct monge_picture *picture, uint32_t y) {
     return picture->rows + y * picture->stride;

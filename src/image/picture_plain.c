@@ -25,10 +25,10 @@ static bool has_data(const struct monge_picture *picture, size_t size) {
     return size / DEFLATE_MAX_RATIO <= picture->data.bytes;
 }
 
-static uint8_t *decode_straight(const struct monge_picture *picture, size_t stride, size_t step) {
+static uint8_t *inflate_straight(const struct monge_picture *picture, size_t stride) {
     const size_t size = stride * picture->height;
     uint8_t *rows = has_data(picture, size) ? pages_alloc(size + FILTERS_ROOM) : NULL;
-    if (rows && inflate_rows(picture, rows, size) && filters_undo(rows + 1, stride, picture->height, step))
+    if (rows && inflate_rows(picture, rows, size) && filters_are_known(rows + 1, stride, picture->height))
         return rows;
     free(rows);
     return NULL;
@@ -78,7 +78,9 @@ static bool place_pass(const struct pass *pass, const struct monge_picture *pict
     const size_t stride = pass_stride(pass, picture, step), all = 1 + picture->width * step;
     const uint32_t height = pass_height(pass, picture);
     if (stride == 0 || height == 0) return true;
-    if (!filters_undo(packed + 1, stride, height, step)) return false;
+    if (!filters_are_known(packed + 1, stride, height) ||
+        !filters_undo(packed + 1, stride, height, step, NULL))
+        return false;
     for (uint32_t i = 0; i < height; i++)
         place_row(rows + (pass->y + (size_t)i * pass->down) * all + 1 + pass->x * step,
                   packed + i * stride + 1, stride - 1, pass->across * step, step);
@@ -160,14 +162,16 @@ static void expand_row(const struct monge_picture *picture, const uint8_t *row, 
         add_alpha_row(picture, row, out);
 }
 
-static void expand(struct monge_picture *picture, const uint8_t *rows, size_t stride) {
-    picture->stride = picture->width * picture_pixel_size(picture);
-    uint8_t *numbers = malloc(picture->width);
-    if (numbers) picture->memory = pages_alloc(picture->stride * picture->height + sizeof *picture->palette);
-    picture->rows = picture->memory;
-    for (uint32_t y = 0; picture->memory && y < picture->height; y++)
-        expand_row(picture, rows + y * stride + 1, numbers, picture->rows + y * picture->stride);
+static void expand(struct monge_picture *picture) {
+    const size_t stride = picture->width * picture_pixel_size(picture);
+    uint8_t *numbers = malloc(picture->width), *memory = NULL;
+    if (numbers) memory = pages_alloc(stride * picture->height + sizeof *picture->palette);
+    for (uint32_t y = 0; memory && y < picture->height; y++)
+        expand_row(picture, picture_row(picture, y), numbers, memory + y * stride);
     free(numbers);
+    free(picture->memory);
+    picture->memory = picture->rows = memory;
+    picture->stride = stride;
 }
 
 /* ---- All of it ---- */
@@ -177,18 +181,43 @@ static size_t bits_of_pixel(const struct monge_picture *picture) {
     return picture->number_bits * (picture->indexed ? 1 : picture->channels - picture->keyed);
 }
 
-void picture_decode_plain(struct monge_picture *picture) {
-    const size_t bits = bits_of_pixel(picture), stride = 1 + (picture->width * bits + 7) / 8;
+/* Has all filters as not undone. False: no memory. */
+static bool mark_filtered(struct monge_picture *picture) {
+    picture->filtered = malloc(picture->height);
+    if (picture->filtered) memset(picture->filtered, 1, picture->height);
+    return picture->filtered;
+}
+
+static void forget(struct monge_picture *picture) {
+    free(picture->memory);
+    free(picture->filtered);
+    picture->memory = picture->filtered = NULL;
+}
+
+void picture_inflate_plain(struct monge_picture *picture) {
+    const size_t bits = bits_of_pixel(picture);
     if (picture->interlaced && bits < 8) return;
-    const size_t step = (bits + 7) / 8;
-    uint8_t *rows =
-        picture->interlaced ? decode_passes(picture, step) : decode_straight(picture, stride, step);
-    if (rows && (picture->indexed || picture->keyed)) {
-        expand(picture, rows, stride);
-        free(rows);
-    } else if (rows) {
-        picture->memory = rows;
-        picture->rows = rows + 1;
-        picture->stride = stride;
-    }
+    picture->stride = 1 + (picture->width * bits + 7) / 8;
+    picture->memory = picture->interlaced ? decode_passes(picture, (bits + 7) / 8)
+                                          : inflate_straight(picture, picture->stride);
+    if (!picture->memory) return;
+    picture->rows = picture->memory + 1;
+    const bool other = picture->indexed || picture->keyed;
+    if ((!picture->interlaced && !mark_filtered(picture)) || (other && !picture_undo(picture, NULL)))
+        forget(picture);
+    else if (other)
+        expand(picture);
+}
+
+bool picture_undo(struct monge_picture *picture, const uint8_t *which) {
+    const size_t step = (bits_of_pixel(picture) + 7) / 8;
+    if (!picture->filtered) return true;
+    if (!filters_undo(picture->rows, picture->stride, picture->height, step,
+                      which ? which : picture->filtered))
+        return false;
+    for (uint32_t y = 0; which && y < picture->height; y++) picture->filtered[y] = !which[y];
+    if (which) return true;
+    free(picture->filtered);
+    picture->filtered = NULL;
+    return true;
 }

@@ -1,26 +1,5 @@
 /* What counts as a difference, and how much of one it is. */
-#include "pictures.h"
-
-static struct monge_difference compare_with(const struct sample *a, const struct sample *b,
-                                            struct monge_compare how) {
-    struct monge_diagnostics *diag = monge_diagnostics_new();
-    struct monge_difference d;
-    write_sample("a.png", a);
-    write_sample("b.png", b);
-    struct monge_picture *of_a = read_good("a.png"), *of_b = read_good("b.png");
-    if (!monge_compare(of_a, of_b, &how, &d, diag)) {
-        monge_diagnostics_print(diag, stdout);
-        fail_msg("cannot be compared");
-    }
-    monge_picture_free(of_a);
-    monge_picture_free(of_b);
-    monge_diagnostics_free(diag);
-    return d;
-}
-
-static struct monge_difference compare(const struct sample *a, const struct sample *b) {
-    return compare_with(a, b, (struct monge_compare){0});
-}
+#include "comparing.h"
 
 /* ---- Pixels of which a few are known ---- */
 
