@@ -880,15 +880,24 @@ if have git; then
     commit 1 'the golden is not in the index'
     git add goldens; commit 0 'a scene with its golden'
     echo '# comment' >>s/two.yaml; git add s; commit 0 'a scene that stays as it looks'; err_lacks pre-commit
-    scene s/one.yaml lime; git add s; commit 1 'as it is in the folder'; err_lacks 'what is staged'
-    scene s/one.yaml blue; commit 1 'a change that is staged alone'; err_has 'pre-commit: this is of what is staged; files in the folder differ from that: `git add` stages them'
+    scene s/one.yaml lime; git add s; commit 1 'as it is in the folder'; err_lacks 'git add'
+    scene s/one.yaml blue; commit 1 'a change that is staged alone'
+    ok 'what to stage is told first' [ "$(sed 2q err)" = "pre-commit: in $work, files are not staged as they are; where they belong to the commit:
+    git add s/one.yaml" ]; err_has "pre-commit: else, in $work, "'`'"$monge test --golden goldens"'` shows it, and'
     exits 0 test --golden goldens -q; git add s
     for broken in 'scene: [{sphere: {raduis: 1}}]' 'scene: ['; do
-        echo "$broken" >s/one.yaml; git add s; commit 1 'a scene that is broken'; err_has 'test --golden goldens` shows it'; err_lacks 'takes what is meant'; err_lacks 'what is staged'
+        echo "$broken" >s/one.yaml; git add s; commit 1 'a scene that is broken'; err_has 'test --golden goldens` shows it'; err_lacks 'takes what is meant'; err_lacks 'git add'
     done
     scene s/one.yaml blue; git add s
     scene s/forgotten.yaml red; scene other.yaml red; exits 1 test --golden goldens -q; exits 0 accept --golden goldens; git add goldens
-    commit 1 'a golden whose scene is not staged'; err_has 'orphan   forgotten'; err_has 'files in the folder differ from that: `git add` stages them'; err_lacks 'takes what is meant'
+    commit() { last='git commit'; MONGE=$monge git commit -qm "$2" >err 2>&1; status=$?; ok "git commit is $1: $2" [ $status -eq "$1" ]; } # as a terminal shows it
+    commit 1 'a golden whose scene is not staged'; ok 'what to stage is told first' [ "$(sed -n '2p; 3s/ .*//p' err)" = '    git add s/forgotten.yaml
+orphan' ]; err_lacks 'takes what is meant'
+    scene "s/it's new.yaml" red; echo >>s/two.yaml; commit 1 'one more'; ok 'each is told' [ "$(sed -n 2,4p err)" = "    git add s/forgotten.yaml
+    git add 's/it'\\''s new.yaml'
+    git add s/two.yaml" ]; rm "s/it's new.yaml"; git checkout -q s/two.yaml
+    for i in 1 2 3 4 5 6 7 8 9; do echo x >s/a$i.yaml; done; commit 1 'very many'; ok 'some are told' [ "$(sed -n 10,11p err)" = '    git add s/a9.yaml
+    and 1 more, see git status' ]; rm s/a?.yaml
     git add s; commit 0 'with its scene'
     last='git commit'; ln -s "$monge" program; MONGE=./program git commit --allow-empty -qm x >out 2>err; ok 'a program in the folder' [ $? -eq 0 ]
     mkdir -p s/deep; cd s/deep; MONGE=./program git commit --allow-empty -qm x >../../out 2>../../err; ok 'from the top' [ $? -eq 0 ]; cd ../..; rm program
