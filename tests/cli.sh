@@ -243,6 +243,13 @@ exits 0 render "${small[@]}" one.yaml two.yml -o 'p-{name}.png'; is_png p-one.pn
 exits 0 render "${small[@]}" one.yaml two.yml -o 'q/{name}/'; is_png q/one/one.png; is_png q/two/two.png
 exits 2 render one.yaml -o 'x/{nope}.png'; err_has '-o: expected {name}, {frame} with --frames, {NAME} with -D NAME=VALUE, found `{nope}`'
 exits 2 render one.yaml -o 'x/{nope}.png' --frames all -D a=1; err_has '-o: expected {name}, {frame}, {a}, found `{nope}`'
+exits 0 render "${small[@]}" -q one.yaml -o '{{nope}}.png'; is_png '{nope}.png'
+exits 0 render "${small[@]}" -q one.yaml -o '{{{name}}}-}.png'; is_png '{one}-}.png'
+exits 0 render "${small[@]}" -q one.yaml two.yml -o '{name}{{}}.png'; is_png 'one{}.png'; is_png 'two{}.png'
+exits 2 render one.yaml two.yml -o '{{name}}.png'; err_has '-o {{name}}.png is one file for 2 scenes'
+exits 2 render one.yaml -o '{name.png'; err_has 'or {{ for a {, found `{name.png`'; exits 2 render one.yaml -o '{{{name}.png}'
+exits 2 render one.yaml -o '{{a}}/x.png'; err_has '; -o {{a}}/ would make the folder'; missing '{a}'
+exits 0 render "${small[@]}" -q one.yaml -o '{{a}}/'; is_png '{a}/one.png'; rm -r {{a},{nope},{one}-,one{}}*
 for word in -dash.yaml -king.yml -z.png; do
     exits 2 render $word; ok "$word is a file" grep -qx "monge: no option \`-[diz]\`; a file of that name is ./$word" err
 done
@@ -464,7 +471,7 @@ exits 2 render params.yaml -D a=1,1; err_has 'would both write'
 exits 2 render params.yaml one.yaml -D a=1,2 -o '{a}.png'; err_has "write -o '{a}-{name}.png'"
 exits 2 render params.yaml -D a=1,2 -o '{a}{c}.png'; err_has '-o: expected {name}, {frame} with --frames, {a}, found `{c}`'
 exits 2 render params.yaml -D tint=red,gold -o '{tnit}.png'; err_has 'did you mean {tint}?'
-exits 2 render params.yaml -o '{a}.png'; err_has '{NAME} with -D NAME=VALUE, found `{a}`'
+exits 2 render params.yaml -o '{a}.png'; err_has '{NAME} with -D NAME=VALUE, or {{ for a {, found `{a}`'
 exits 2 render params.yaml -o '{a'; err_has 'found `{a`'
 last='render - -D a=1,2 <params.yaml'
 "$monge" render -q "${small[@]}" - -D a=1,2 -o 's{a}.png' <params.yaml >out 2>err; status=$?

@@ -320,6 +320,17 @@ for options in '--frames 2 --size 20x15' '--size 20x15 --frames 2-3' '--size 20x
     sed -n '/^broken/,/^new/s/^ *again: //p' out >command; sed -i "s,^monge,'$monge'," command; sh ./command >out 2>err; status=$?
     ok 'it is what it shows' [ "$status" -eq 2 ]; err_has 'has no animation'
 done
+# of a name with what patterns of -o have a meaning for: the command makes the picture under the golden's name
+printf 'image: {size: [20, 10]}\nanimation: {frames: 2}\nscene: [{sphere: {radius: 1 + t}}]\n' >moves.yaml
+for frames in '' ' --frames 2'; do
+    fresh "rules: [{scenes: '*', options: '--samples 1$frames'}]"; rm -r s; mkdir s; cp moves.yaml 's/{b}%d}.yaml'; name="{b}%d}${frames:+-0002}"
+    exits 1 test s --golden g; says new "$name"; sed -n 's/^ *again: //p' out >command; sed -i "s,^monge,'$monge'," command
+    sh ./command >out 2>err; ok 'the command of it ends well' [ $? -eq 0 ]; same "$name.png" "monge-test/new/$name.png"; rm "$name.png"
+done
+# so does an old program
+fresh 'kind: hash'; mv s/one.yaml 's/{b}.yaml'; exits 0 test s --golden g --update-only-failed -q; sed -i 's/red/blue/' 's/{b}.yaml'
+printf '#!/bin/sh\nsed -i s/blue/red/ "s/{b}.yaml"; "%s" "$@"; sed -i s/red/blue/ "s/{b}.yaml"\n' "$monge" >old; chmod +x old
+exits 1 test s --golden g --old ./old; says changed '[{]b}'; there 'monge-test/old/{b}.png'; out_has flip; rm old
 fresh 'rules: [{scenes: one, options: --frames 2}]'; echo 'scene: [{sphre: {}}]' >s/one.yaml; exits 1 test s --golden g; out_has "s/one.yaml --frames 2 -o 'one-{frame}.png'"
 fresh 'rules: [{scenes: one, options: --frames all}]'; exits 1 test s --golden g; says new one; out_has 'monge render s/one.yaml -o one.png'
 fresh 'rules: [{scenes: one, options: "--region 0,0,99,99"}]'; exits 1 test s --golden g; says broken one; out_has 'does not lie within'

@@ -206,8 +206,8 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                  "-o FILE names the picture of a single scene, with its extension. For several, and for a "
                  "folder, a pattern or a list of however many scenes, -o DIR/ puts the "
                  "pictures into a folder, which is made where it is missing, and in a pattern "
-                 "{name} stands for NAME; folders of a pattern are made too. A picture is complete "
-                 "under its name, or what was there before stays.",
+                 "{name} stands for NAME, and {{ for a {, }} for a }; folders of a pattern are made "
+                 "too. A picture is complete under its name, or what was there before stays.",
                  "-D sets parameters of the scene. Lists make a sweep: -D a=1,2 -D b=x,y renders a=1 "
                  "with b=x, a=1 with b=y, a=2 with b=x, a=2 with b=y. Commas within brackets or quotes do "
                  "not split. In a "

@@ -310,17 +310,19 @@ static char *file_in_way(const char *path) {
 }
 
 /* A FILE of -o has its folder already. */
-static bool check_folder(const struct report *report, const char *path) {
+static bool check_folder(const struct plan *plan, const char *path) {
+    const struct report *report = plan->report;
     const size_t length = path_folder_length(path);
     char *folder = say_text("%.*s", (int)length, path);
     const bool there = length == 0 || access(folder, F_OK) == 0;
     const int reason = errno;
-    char *file = there ? NULL : file_in_way(path);
+    char *file = there ? NULL : file_in_way(path), *pattern = pattern_of(folder, plan->frames != NULL);
     if (file)
         report_failure(report, "cannot-write", "cannot write %s: %s is a file", path, file);
     else if (!there)
         report_failure(report, "cannot-write", "cannot write %s: %s; -o %s would make the folder", path,
-                       strerror(reason), folder);
+                       strerror(reason), pattern);
+    free(pattern);
     free(file);
     free(folder);
     return there;
@@ -345,7 +347,7 @@ static bool check_passes_writable(const struct plan *plan, const char *picture) 
 
 bool plan_reach(struct plan *plan, const char *path) {
     char *copy = say_text("%s", path);
-    const bool good = (makes_folders(plan) ? make_folder(plan, copy) : check_folder(plan->report, path)) &&
+    const bool good = (makes_folders(plan) ? make_folder(plan, copy) : check_folder(plan, path)) &&
                       check_writable(plan->report, path) && check_passes_writable(plan, path);
     free(copy);
     return good;

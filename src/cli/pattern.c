@@ -33,18 +33,25 @@ static struct piece take_percent(const char **at) {
     return (struct piece){PIECE_NUMBER, begin, (int)(*at - begin), digits};
 }
 
+/* {word}, or {{ and }} as the text of the second one. A } alone is itself. */
+static struct piece take_brace(const char **at) {
+    const char *begin = *at, *end = *begin == '{' ? strchr(begin, '}') : begin;
+    if (begin[1] == *begin || *begin == '}') {
+        *at = begin + (begin[1] == *begin ? 2 : 1);
+        return (struct piece){PIECE_TEXT, begin, 1, 0};
+    }
+    if (!end) return (struct piece){PIECE_WRONG, begin, (int)strlen(begin), 0};
+    *at = end + 1;
+    return (struct piece){PIECE_WORD, begin + 1, (int)(end - begin - 1), 0};
+}
+
 /* The next piece, behind which *at moves. */
 static struct piece take_piece(const char **at, bool frames) {
     const char *begin = *at;
     if (!*begin) return (struct piece){.kind = PIECE_END};
     if (*begin == '%' && frames) return take_percent(at);
-    if (*begin == '{') {
-        const char *end = strchr(begin, '}');
-        if (!end) return (struct piece){PIECE_WRONG, begin, (int)strlen(begin), 0};
-        *at = end + 1;
-        return (struct piece){PIECE_WORD, begin + 1, (int)(end - begin - 1), 0};
-    }
-    const int length = (int)strcspn(begin, frames ? "{%" : "{");
+    if (*begin == '{' || *begin == '}') return take_brace(at);
+    const int length = (int)strcspn(begin, frames ? "{}%" : "{}");
     *at = begin + length;
     return (struct piece){PIECE_TEXT, begin, length, 0};
 }
@@ -71,7 +78,9 @@ bool pattern_has_frame(const char *pattern) {
 }
 
 bool pattern_is_plain(const char *pattern, bool frames) {
-    return !strchr(pattern, '{') && !(frames && pattern_has_frame(pattern));
+    struct piece p;
+    while ((p = take_piece(&pattern, frames)).kind == PIECE_TEXT) continue;
+    return p.kind == PIECE_END;
 }
 
 /* ---- What is wrong ---- */
@@ -100,7 +109,7 @@ static void report_unknown(const char *found, const char *word, const struct swe
     else if (best)
         say_usage(COMMAND_RENDER, "-o: expected %s%s, found `%s`; did you mean {%s}?", all, own, found, best);
     else
-        say_usage(COMMAND_RENDER, "-o: expected %s%s, found `%s`", all, own, found);
+        say_usage(COMMAND_RENDER, "-o: expected %s%s, or {{ for a {, found `%s`", all, own, found);
     free(all);
 }
 
@@ -176,6 +185,15 @@ char *pattern_expand(const char *pattern, const struct pattern_values *values) {
         text = longer;
     }
     return text;
+}
+
+char *pattern_of(const char *text, bool frames) {
+    char *pattern = malloc(2 * strlen(text) + 1), *to = pattern;
+    if (!pattern) say_no_memory();
+    for (; *text; *to++ = *text++)
+        if (strchr(frames ? "{}%" : "{}", *text)) *to++ = *text;
+    *to = '\0';
+    return pattern;
 }
 
 /* ---- Without a pattern ---- */

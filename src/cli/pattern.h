@@ -5,6 +5,7 @@
  *     {frame}      the number of the frame, with the zeros that make all as long as the last
  *     %04d, %d     the same, of at least 4 digits or as it is; once; and %% is a %. Only with --frames:
  *                  without it a % is any other character
+ *     {{, }}       a brace; a } that closes nothing is one, too
  */
 #ifndef MONGE_CLI_PATTERN_H
 #define MONGE_CLI_PATTERN_H
@@ -25,6 +26,9 @@ bool pattern_check(const char *pattern, const struct sweep *sweep, bool frames);
 
 /* The text of a pattern that pattern_check accepts. To be freed. */
 char *pattern_expand(const char *pattern, const struct pattern_values *values);
+
+/* The pattern of which nothing but the text comes. To be freed. */
+char *pattern_of(const char *text, bool frames);
 
 /* Whether {word} is in it; whether anything is that stands for the frame; whether anything stands for anything. */
 bool pattern_has(const char *pattern, const char *word);

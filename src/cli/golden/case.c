@@ -59,13 +59,15 @@ static void set_command(struct golden_case *c, const struct golden_rule *rule,
     const char *slash = strrchr(c->name, '/');
     char *options = asked_text(rule->args.option, defines, rule->loader.sweep.count, frame),
          *scene = word_quoted(c->scene);
-    char *picture = say_text("%s%s.png", slash ? slash + 1 : c->name, frames ? "-{frame}" : ""),
-         *output = word_quoted(picture);
+    c->has_frames = frames || frame > 1;
+    char *name = pattern_of(slash ? slash + 1 : c->name, c->has_frames),
+         *picture = say_text("%s%s.png", name, frames ? "-{frame}" : ""), *output = word_quoted(picture);
     c->arguments = say_text("%s%s%s%s%s", scene, *options ? " " : "", options, frames ? " --frames " : "",
                             frames ? frames : "");
     c->command = say_text("monge render %s -o %s", c->arguments, output);
     free(output);
     free(picture);
+    free(name);
     free(scene);
     free(options);
 }

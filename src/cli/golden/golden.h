@@ -54,6 +54,7 @@ struct golden_case {
     char **changes; /* what changed, in sentences */
     size_t change_count;
     char *arguments;             /* of `monge render` for the picture, as a shell takes them */
+    bool has_frames;             /* --frames is one of them */
     char *command, *old_command; /* to make the picture, and the one of the golden, again */
     double seconds;
 };

@@ -13,6 +13,7 @@
 #include "cli/golden/settings.h"
 #include "cli/interrupt.h"
 #include "cli/paths.h"
+#include "cli/pattern.h"
 #include "cli/say.h"
 #include "cli/words.h"
 
@@ -56,7 +57,8 @@ static bool run_command(char *command) {
 
 /* An old program may not know passes. */
 static bool render(const char *program, const struct golden_case *c, const char *path, bool passes) {
-    char *quoted_program = word_quoted(program), *quoted_path = word_quoted(path);
+    char *pattern = pattern_of(path, c->has_frames);
+    char *quoted_program = word_quoted(program), *quoted_path = word_quoted(pattern);
     char *command =
         say_text("exec %s render %s -o %s --quiet%s </dev/null >/dev/null 2>&1", quoted_program, c->arguments,
                  quoted_path, passes ? " --aov object,material,depth,normal,shadow" : "");
@@ -64,6 +66,7 @@ static bool render(const char *program, const struct golden_case *c, const char 
     free(command);
     free(quoted_path);
     free(quoted_program);
+    free(pattern);
     return good || (passes && !interrupt_pending() && render(program, c, path, false));
 }
 
