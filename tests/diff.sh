@@ -57,6 +57,10 @@ exits 1 diff lighter.png dot.png --max-delta 0.01 --max-pixels 4
 exits 1 diff grey.png small.png --max-delta 1 --max-pixels 100%
 exits 1 diff grey.png linear.png --max-delta 1 --max-pixels 100%
 exits 0 diff grey.png deep.png --max-delta 0.002
+# of the verdict first: of bits where they decide, else of pixels
+exits 1 diff lighter.png deep.png; out_is 'different: they have 8 and 16 bits a channel; 1200 of 1200 pixels (100 %), largest difference 0.01176 at 0,0'
+exits 1 diff lighter.png deep.png --max-delta 0.01; out_is 'different: 1200 of 1200 pixels (100 %), largest difference 0.01176 at 0,0; 1200 beyond --max-delta; they have 8 and 16 bits a channel'
+exits 0 diff lighter.png deep.png --max-pixels 1200; out_is 'within the limits: 1200 of 1200 pixels (100 %), largest difference 0.01176 at 0,0; they have 8 and 16 bits a channel'
 
 # ---- What is not quite all is not told as all ----
 
@@ -191,7 +195,17 @@ exits 1 diff grey.png dot.png --json; out_has '"exact": 0.003333333'; out_has '"
 out_has '"same": false'; out_has '"why": "pixels"'; out_has '"bounds": {"x": 19, "y": 14, "width": 2, "height": 2}'
 ok "no metric that is not asked for" sh -c '! grep -q flip out'
 exits 0 diff grey.png again.png --json --metric psnr; out_has '"psnr": null'; out_has '"why": null'; out_has '"bounds": null'
-exits 1 diff grey.png small.png --json --metric $all; out_has '"why": "size"'; out_has '"flip": null'
+exits 1 diff grey.png small.png --json --metric $all; out_has '"why": "size"'; out_has '"flip": null'; out_has '"ignored": 0'
+exits 1 diff grey.png dot.png --json --ignore 19,14,1,1 --ignore 0,0,9,2; out_has '"pixels": 1181'; out_has '"ignored": 19'; out_has '"different": 3'
+exits 0 diff grey.png grey.png --json; out_has '"pixels": 1200'; out_has '"ignored": 0'
+# bits are a reason where they decide, or nothing else differs
+exits 1 diff grey.png deep.png --json; out_has '"why": "bits"'
+exits 0 diff grey.png deep.png --json --max-delta 0; out_has '"why": "bits"'
+exits 1 diff deep.png lighter.png --json; out_has '"why": "bits"'
+for limits in '1 --max-delta 0.01' '0 --max-delta 0.02' '1 --max-pixels 3' '0 --max-pixels 100%' '1 --max-delta 0.01 --metric mae'; do
+    # shellcheck disable=SC2086
+    exits "${limits%% *}" diff deep.png lighter.png --json ${limits#* }; out_has '"why": "pixels"'
+done
 exits 0 diff grey.png dot.png --json --max-pixels 4; out_has '"same": true'; out_has '"why": "pixels"'; out_has '"beyond": 4'
 if command -v python3 >/dev/null; then
     for pair in dot.png again.png copy.png small.png linear.png deep.png; do
@@ -199,7 +213,7 @@ if command -v python3 >/dev/null; then
         ok "JSON of $pair" python3 -c '
 import json, sys
 d = json.load(open("out"))
-assert {"same", "why", "a", "b", "pixels", "different", "beyond", "bounds", "largest"} | set(sys.argv[1].split(",")) == set(d)
+assert {"same", "why", "a", "b", "pixels", "ignored", "different", "beyond", "bounds", "largest"} | set(sys.argv[1].split(",")) == set(d)
 assert all(d[m] is None or 0 <= d[m] <= 1 for m in ("exact", "max", "mae", "rmse", "flip"))' $all
     done
 fi

@@ -58,10 +58,15 @@ static bool pixels_pass(const struct diff *diff, const struct monge_difference *
     return (double)d->beyond <= (most->percent ? most->fraction / 100.0 * (double)d->pixels : most->fraction);
 }
 
+/* Then bits a channel may differ. */
+static bool has_limits(const struct diff *diff) {
+    return diff->args->option[OPTION_MAX_DELTA].given || diff->args->option[OPTION_MAX_PIXELS].given;
+}
+
 static bool passes(const struct diff *diff, const struct monge_difference *d) {
     const bool delta = diff->args->option[OPTION_MAX_DELTA].given;
     const bool pixels = diff->args->option[OPTION_MAX_PIXELS].given;
-    if (!delta && !pixels) return d->same;
+    if (!has_limits(diff)) return d->same;
     if (d->unlike == MONGE_UNLIKE_SIZE || d->unlike == MONGE_UNLIKE_COLOR_SPACE) return false;
     if (!delta || !diff_limits_means(diff)) return pixels_pass(diff, d);
     return means_pass(diff, d) && (!pixels || pixels_pass(diff, d));
@@ -132,20 +137,28 @@ static void print_unlike(const struct diff_pair *pair, FILE *out) {
     if (d->unlike == MONGE_UNLIKE_SIZE)
         fprintf(out, "their sizes are %u x %u and %u x %u pixels", monge_picture_width(a),
                 monge_picture_height(a), monge_picture_width(b), monge_picture_height(b));
-    else if (d->unlike == MONGE_UNLIKE_COLOR_SPACE &&
-             strcmp(monge_picture_color_space(a), monge_picture_color_space(b)) == 0)
+    else if (strcmp(monge_picture_color_space(a), monge_picture_color_space(b)) == 0)
         fprintf(out, "their colour spaces are not the same, though both are called %s",
                 monge_picture_color_space(a));
-    else if (d->unlike == MONGE_UNLIKE_COLOR_SPACE)
+    else
         fprintf(out, "their colour spaces are %s and %s", monge_picture_color_space(a),
                 monge_picture_color_space(b));
-    else
-        fprintf(out, "they have %u and %u bits a channel; ", monge_picture_bits(a), monge_picture_bits(b));
+}
+
+static void print_bits(const struct diff_pair *pair, const char *before, const char *behind, FILE *out) {
+    if (pair->difference.unlike == MONGE_UNLIKE_BITS)
+        fprintf(out, "%sthey have %u and %u bits a channel%s", before, monge_picture_bits(pair->a),
+                monge_picture_bits(pair->b), behind);
+}
+
+/* 0 where nothing could be compared. */
+static uint64_t count_ignored(const struct diff_pair *pair) {
+    const uint64_t all = (uint64_t)monge_picture_width(pair->a) * monge_picture_height(pair->a);
+    return isnan(pair->difference.max) ? 0 : all - pair->difference.pixels;
 }
 
 static void print_ignored(const struct diff_pair *pair, FILE *out) {
-    const uint64_t all = (uint64_t)monge_picture_width(pair->a) * monge_picture_height(pair->a);
-    const uint64_t ignored = all - pair->difference.pixels;
+    const uint64_t ignored = count_ignored(pair);
     if (ignored > 0) fprintf(out, "; %" PRIu64 " ignored", ignored);
 }
 
@@ -186,8 +199,13 @@ static void print_metric(const struct diff_pair *pair, enum monge_metric metric,
 void diff_pair_print(const struct diff_pair *pair, const char *before, FILE *out) {
     const struct monge_difference *d = &pair->difference;
     const unsigned metrics = pair->diff->args->option[OPTION_METRIC].given ? pair->diff->metrics : 0;
-    if (d->unlike != MONGE_UNLIKE_NOTHING) print_unlike(pair, out);
-    if (!isnan(d->max)) print_pixels(pair, out);
+    if (isnan(d->max)) {
+        print_unlike(pair, out);
+    } else { /* first what the verdict is of */
+        if (!has_limits(pair->diff)) print_bits(pair, "", "; ", out);
+        print_pixels(pair, out);
+        if (has_limits(pair->diff)) print_bits(pair, "; ", "", out);
+    }
     fputc('\n', out);
     for (enum monge_metric m = 0; m < MONGE_METRICS; m++)
         if (metrics & METRIC_BIT(m) && !isnan(measure(d, m))) print_metric(pair, m, before, out);
@@ -205,14 +223,17 @@ static void print_side(const char *key, const char *path, const struct monge_pic
     fprintf(out, "},\n");
 }
 
-static const char *find_reason(const struct monge_difference *d) {
+/* With limits bits decide nothing: they are the reason where there is no other difference. */
+static const char *find_reason(const struct diff_pair *pair) {
     static const char *const reasons[] = {
         [MONGE_UNLIKE_NOTHING] = "pixels",
         [MONGE_UNLIKE_SIZE] = "size",
         [MONGE_UNLIKE_COLOR_SPACE] = "color space",
         [MONGE_UNLIKE_BITS] = "bits",
     };
-    return d->same ? NULL : reasons[d->unlike];
+    const struct monge_difference *d = &pair->difference;
+    const bool of_pixels = d->different > 0 && has_limits(pair->diff);
+    return d->same ? NULL : reasons[of_pixels ? MONGE_UNLIKE_NOTHING : d->unlike];
 }
 
 /* The beginning of an object. why NULL: they are the same in every respect. */
@@ -239,12 +260,12 @@ void diff_print_json_none(const char *name, const char *why, const char *path_a,
 void diff_pair_print_json(const struct diff_pair *pair, const char *name, FILE *out) {
     const struct monge_difference *d = &pair->difference;
     const struct monge_region *r = &d->bounds;
-    print_verdict(name, pair->verdict != DIFF_DIFFERENT, find_reason(d), out);
+    print_verdict(name, pair->verdict != DIFF_DIFFERENT, find_reason(pair), out);
     fputs(",\n", out);
     print_side("a", pair->path_a, pair->a, out);
     print_side("b", pair->path_b, pair->b, out);
-    fprintf(out, "  \"pixels\": %" PRIu64 ",\n  \"different\": %" PRIu64 ",\n  \"beyond\": %" PRIu64 ",\n",
-            d->pixels, d->different, d->beyond);
+    fprintf(out, "  \"pixels\": %" PRIu64 ",\n  \"ignored\": %" PRIu64 ",\n", d->pixels, count_ignored(pair));
+    fprintf(out, "  \"different\": %" PRIu64 ",\n  \"beyond\": %" PRIu64 ",\n", d->different, d->beyond);
     if (d->different > 0)
         fprintf(
             out,
