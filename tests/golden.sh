@@ -72,7 +72,7 @@ echo s/one.yaml | "$monge" test - --golden g >out 2>err; says new one
 
 # the folder of the goldens: one that is not there yet, or is none
 fresh; rm -r g
-exits 1 test s --golden g; says new one; ok 'a note, once' [ "$(cat err)" = 'there is no folder g yet: `monge accept` makes it' ]
+exits 1 test s --golden g; says new one; ok 'a note, once' [ "$(cat err)" = 'there is no folder g yet: `monge accept --golden g` makes it' ]
 exits 1 test s --golden g -q; no_err
 exits 2 test --golden g; ok 'and no scenes' [ "$(cat err)" = 'monge: --golden g: there is no such folder' ]
 exits 0 test s --golden g --update-only-failed; err_has 'there is no folder g yet: this run makes it'
@@ -99,8 +99,9 @@ refers 'options: --no-shadows' --no-shadows
 refers 'options: "--frames 1-3"' --frames 1-3
 refers 'aov: true' --aov depth
 exits 2 test s --golden g -Da=1; err_has 'options: "-D a=1"'
-for option in --tolerance=0.1 --max-delta=0.1 --max-pixels=5; do
-    exits 2 test s --golden g $option; err_has "no option \`${option%=*}\`; a tolerance stands in golden.yaml, \`rules: [{scenes: \"*\", tolerance: {max: 0.004, pixels: 0.1%, reason: edges differ}}]\`, or in the scene"
+for option in --tolerance=0.1 --max-delta=0.1 --max-pixels=5 --metric=flip --ignore=0,0,9,9 --mask=m.png; do
+    case $option in --ignore* | --mask*) note='all pixels of a golden count; ' ;; *) note= ;; esac
+    exits 2 test s --golden g $option; err_has "no option \`${option%=*}\`; ${note}a tolerance stands in golden.yaml, \`rules: [{scenes: \"*\", tolerance: {max: 0.004, pixels: 0.1%, reason: edges differ}}]\`, or in the scene"
 done
 echo 'rules: [{scenes: "*", tolerance: {max: 0.004, pixels: 0.1%, reason: edges differ}}]' >g/golden.yaml; exits 1 test s --golden g -q; no_err; rm g/golden.yaml
 exits 2 accept --golden g --tolerance 1; err_lacks golden.yaml
@@ -155,12 +156,15 @@ for kind in png hash both; do
     rm s/two.yaml
     exits 1 test s --golden g; says orphan two; out_has 'no scene makes it any more'
     exits 0 test s/one.yaml --golden g; out_lacks orphan
+    exits 1 test s --golden g -q --output "a run"
+    out_has "\`monge accept --golden g --output 'a run' --prune\` removes it"; rm -r 'a run'
     exits 1 test s --golden g -q
-    out_has '`monge accept --prune` removes it'
-    exits 0 accept --golden g; ok 'the orphan is counted' [ "$(cat out)" = $'0 taken\n1 orphan is left: --prune removes it' ]
+    out_has '`monge accept --golden g --prune` removes it'
+    exits 0 accept --golden g; ok 'the orphan is counted' [ "$(cat out)" = $'0 taken\n1 orphan is left: `monge accept --golden g --prune` removes it' ]
+    exits 0 accept 'tw*' one --golden g; out_has "1 orphan is left: \`monge accept --golden g --prune 'tw*' one\` removes it"
     exits 0 accept --golden g -q; no_out; exits 0 accept one --golden g; out_lacks orphan; exits 0 accept two --golden g -n; out_has '1 orphan is left'
-    mv 's/in/a b%.yaml' kept.yaml; exits 1 test s --golden g -q; out_has '`monge accept --prune` removes it'
-    exits 0 accept --golden g; out_has '2 orphans are left: --prune removes them'; mv kept.yaml 's/in/a b%.yaml'
+    mv 's/in/a b%.yaml' kept.yaml; exits 1 test s --golden g -q; out_has '`monge accept --golden g --prune` removes it'
+    exits 0 accept --golden g; out_has '2 orphans are left: `monge accept --golden g --prune` removes them'; mv kept.yaml 's/in/a b%.yaml'
     exits 0 accept --golden g; out_has '1 orphan is left'; exits 1 test s --golden g
     exits 0 accept --golden g --prune; out_has 'removed two'; out_lacks 'left'; missing g/two.png
     exits 0 accept --golden g; out_lacks orphan
@@ -170,7 +174,7 @@ for kind in png hash both; do
     exits 1 accept --golden g; out_has '0 taken, 1 left as they are'; err_has 'one is left as it is: it is broken'
     scene s/three.yaml blue
     scene s/one.yaml lime
-    exits 0 test s --golden g --update-only-failed; says new three; says changed one; out_has '2 of 2 new pictures are goldens now'
+    exits 0 test s --golden g --update-only-failed; says new three; says changed one; out_has '2 of 2 new pictures are goldens now'; out_has '3 goldens: 1 same, 2 taken, in '; out_lacks ' 1 new'
     exits 0 test s --golden g
     exits 0 accept --golden g; out_has '0 taken'
 done
@@ -218,7 +222,7 @@ rm g/one.depth.pfm; exits 1 accept --golden g; out_has 'two is taken already'; o
 fresh 'kind: hash'; exits 0 test s --golden g --update-only-failed -q; scene s/one.yaml lime
 printf '#!/bin/sh\n[ "$1" = --version ] || sed -i "/^one /s/pixels=..../pixels=0000/" g/golden.lock\n' >old; chmod +x old
 exits 1 test s --golden g --old ./old --update-only-failed; err_has 'one is left as it is: its golden has changed during the run'
-out_has '0 of 1 new pictures are goldens now'; ok 'the line of others stays' grep -q '^one .*pixels=0000' g/golden.lock
+out_has '0 of 1 new pictures are goldens now'; out_has ' 1 changed, in '; out_lacks ' taken'; ok 'the line of others stays' grep -q '^one .*pixels=0000' g/golden.lock
 
 # ---- Names that could be another line ----
 
@@ -781,7 +785,11 @@ exits 1 test s --golden g --tap; no_err
 ok 'TAP' [ "$(head -n 1 out)" = 'TAP version 13' ]
 ok 'its plan' grep -qx '1..4' out
 ok 'its escapes' grep -qx 'not ok 1 - b&<"d\\#' out
+ok 'its first error' [ "$(sed -n '/^not ok 1 /,/^  lines/s/^  detail: //p' out)" = '"s/b&<\"d#.yaml:1:10: error[unknown-key]: an object has no key `sphre`"' ]
 ok 'as many as planned' [ "$(grep -cE '^(not )?ok [0-9]+ - ' out)" -eq 4 ]
+cp 's/b&<"d#.yaml' kept.yaml; printf 'scene:\n  - sphere: {}\n    transform: {rotate: {x: 1.5708}}\n  - sphre: {}\n' >'s/b&<"d#.yaml'
+exits 1 test s --golden g --tap --junit junit.xml; ok 'a warning goes before it' grep -q '^  lines: ".*: warning\[.*: error\[' out
+ok 'and is not it' grep -q '^  detail: ".*:4:5: error\[' out; ok 'in JUnit, too' grep -q '<error type="broken" message="[^"]*:4:5: error\[' junit.xml; cp kept.yaml 's/b&<"d#.yaml'
 exits 1 test s --golden g --junit junit.xml --json results.json --report r
 there r/index.html; ok 'the same document' cmp results.json monge-test/results.json
 exits 1 test s --golden g --json -; err_has 'changed  one'; ok 'a document alone' [ "$(head -c 10 out)" = '{"about": ' ]
@@ -903,7 +911,7 @@ if have git; then
     scene s/forgotten.yaml red; scene other.yaml red; exits 1 test --golden goldens -q; exits 0 accept --golden goldens; git add goldens
     commit() { last='git commit'; MONGE=$monge git commit -qm "$2" >err 2>&1; status=$?; ok "git commit is $1: $2" [ $status -eq "$1" ]; } # as a terminal shows it
     commit 1 'a golden whose scene is not staged'; ok 'what to stage is told first' [ "$(sed -n '2p; 3s/ .*//p' err)" = '    git add s/forgotten.yaml
-orphan' ]; err_lacks 'takes what is meant'
+orphan' ]; err_lacks 'takes what is meant'; err_lacks --prune
     scene "s/it's new.yaml" red; echo >>s/two.yaml; commit 1 'one more'; ok 'each is told' [ "$(sed -n 2,4p err)" = "    git add s/forgotten.yaml
     git add 's/it'\\''s new.yaml'
     git add s/two.yaml" ]; rm "s/it's new.yaml"; git checkout -q s/two.yaml

@@ -294,12 +294,19 @@ static bool set_next_value(struct arguments *args, enum option_id option, const 
     return false;
 }
 
-/* Those of diff, and what somebody may call them: a tolerance needs its reason. */
-static bool is_tolerance(enum command_id command, const char *word) {
-    static const char *const words[] = {"tolerance", "max-delta", "max-pixels"};
-    for (size_t i = 0; command == COMMAND_TEST && i < sizeof words / sizeof *words; i++)
-        if (strcmp(word, words[i]) == 0) return true;
-    return false;
+/* Those of diff, and what somebody may call them: a tolerance needs its reason. What it is besides; NULL: none of these. */
+static const char *tolerance_note(enum command_id command, const char *word) {
+    static const struct {
+        const char *word, *note;
+    } rows[] = {{"tolerance", ""},
+                {"max-delta", ""},
+                {"max-pixels", ""},
+                {"metric", ""},
+                {"ignore", "all pixels of a golden count; "},
+                {"mask", "all pixels of a golden count; "}};
+    for (size_t i = 0; command == COMMAND_TEST && i < sizeof rows / sizeof *rows; i++)
+        if (strcmp(word, rows[i].word) == 0) return rows[i].note;
+    return NULL;
 }
 
 /* Reports a long option, `length` bytes of name, that the command does not have. */
@@ -317,11 +324,12 @@ static bool unknown_long(enum command_id command, const char *name, size_t lengt
         if (command_takes(command, o)) suggestion_try(&nearest, OPTION_TABLE[o].name);
     const char *best = suggestion_best(&nearest);
     const bool side = strcmp(word, "width") == 0 || strcmp(word, "height") == 0;
-    if (is_tolerance(command, word))
+    const char *note = tolerance_note(command, word);
+    if (note)
         say_usage(command,
-                  "no option `%s`; a tolerance stands in golden.yaml, `rules: [{scenes: \"*\", tolerance: "
+                  "no option `%s`; %sa tolerance stands in golden.yaml, `rules: [{scenes: \"*\", tolerance: "
                   "{max: 0.004, pixels: 0.1%%, reason: edges differ}}]`, or in the scene",
-                  shown);
+                  shown, note);
     else if (side && command_takes(command, OPTION_SIZE))
         say_usage(command, "no option `%s`; did you mean `--size WxH`?", shown);
     else if (best)

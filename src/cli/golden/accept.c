@@ -15,6 +15,7 @@
 #include "cli/paths.h"
 #include "cli/say.h"
 #include "cli/scene_path.h"
+#include "cli/words.h"
 
 /* The last run, and what is taken of it. */
 struct acceptance {
@@ -272,14 +273,32 @@ static void tell_interruption(const struct acceptance *a) {
     free(interruption);
 }
 
+/* A shell's words with one more. */
+static char *with_word(char *words, const char *more) {
+    char *word = word_quoted(more), *longer = say_text("%s %s", words, word);
+    free(word);
+    free(words);
+    return longer;
+}
+
 static void tell_counts(const struct acceptance *a) {
     printf("%zu %staken", a->taken, is_dry(a) ? "would be " : "");
     if (a->removed > 0) printf(", %zu removed", a->removed);
     if (a->done > 0) printf(", %zu done already", a->done);
     if (a->refused > 0) printf(", %zu left as they are", a->refused);
     printf("\n");
-    if (a->orphans == 1) printf("1 orphan is left: --prune removes it\n");
-    if (a->orphans > 1) printf("%zu orphans are left: --prune removes them\n", a->orphans);
+}
+
+/* With the command that removes them, of the same globs. */
+static void tell_orphans(const struct acceptance *a) {
+    if (a->orphans == 0) return;
+    char *words = golden_accept_words(a->folder, a->args->option[OPTION_TEST_OUTPUT].text);
+    words = with_word(words, "--prune");
+    if (a->args->count > 0 && *a->args->operands[0] == '-') words = with_word(words, "--");
+    for (size_t i = 0; i < a->args->count; i++) words = with_word(words, a->args->operands[i]);
+    say_line(stdout, "%zu orphan%s left: `%s` removes %s", a->orphans, a->orphans == 1 ? " is" : "s are",
+             words, a->orphans == 1 ? "it" : "them");
+    free(words);
 }
 
 static enum status settle(struct acceptance *a) {
@@ -290,6 +309,7 @@ static enum status settle(struct acceptance *a) {
     if (!is_dry(a) && a->taken + a->removed > 0 && !golden_lock_write(&a->lock)) a->trouble = true;
     interrupt_settle();
     if (!a->args->option[OPTION_QUIET].given) tell_counts(a);
+    if (!a->args->option[OPTION_QUIET].given) tell_orphans(a);
     return a->trouble ? STATUS_TROUBLE : a->refused > 0 ? STATUS_NO : STATUS_YES;
 }
 

@@ -16,11 +16,11 @@ void golden_stamp_free(struct golden_stamp *stamp) {
 }
 
 void golden_case_free(struct golden_case *c) {
-    char *const owned[] = {c->name,           c->scene,       c->rule_options,
-                           c->message,        c->golden_path, c->new_path,
-                           c->command,        c->old_command, (char *)c->tolerance.reason,
-                           c->tolerance_text, c->arguments,   c->scene_name,
-                           c->golden_line};
+    char *const owned[] = {c->name,           c->scene,        c->rule_options,
+                           c->message,        c->golden_path,  c->new_path,
+                           c->command,        c->old_command,  (char *)c->tolerance.reason,
+                           c->tolerance_text, c->arguments,    c->scene_name,
+                           c->golden_line,    c->prune_command};
     for (size_t i = 0; i < sizeof owned / sizeof *owned; i++) free(owned[i]);
     for (size_t i = 0; i < c->change_count; i++) free(c->changes[i]);
     free(c->changes);

@@ -56,6 +56,7 @@ struct golden_case {
     char *arguments;             /* of `monge render` for the picture, as a shell takes them */
     bool has_frames;             /* --frames is one of them */
     char *command, *old_command; /* to make the picture, and the one of the golden, again */
+    char *prune_command;         /* of an orphan: to remove all of them */
     double seconds;
 };
 

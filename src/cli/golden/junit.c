@@ -49,16 +49,9 @@ static void put_attribute(FILE *out, const char *name, const char *text) {
     putc('"', out);
 }
 
-/* A line to show in a list: of a longer message its first one. To be freed. */
-static char *message_of(const struct golden_case *c) {
-    char *detail = golden_detail(c);
-    if (detail) return detail;
-    return say_text("%.*s", c->message ? (int)strcspn(c->message, "\n") : 0, c->message ? c->message : "");
-}
-
 static void put_failure(FILE *out, const struct golden_case *c) {
     const char *element = c->status == GOLDEN_BROKEN ? "error" : "failure";
-    char *message = message_of(c), *lines = golden_details(c);
+    char *message = golden_headline(c), *lines = golden_details(c);
     fprintf(out, "      <%s type=\"%s\"", element, GOLDEN_STATUS[c->status]);
     put_attribute(out, "message", *message ? message : GOLDEN_STATUS[c->status]);
     fputs(">", out);

@@ -85,8 +85,12 @@ static void add_orphan(struct golden_results *results, const char *name, enum mo
                        char *path) {
     results->cases = realloc(results->cases, (results->count + 1) * sizeof *results->cases);
     if (!results->cases) say_no_memory();
-    results->cases[results->count++] = (struct golden_case){
-        .name = say_text("%s", name), .kind = kind, .status = GOLDEN_ORPHAN, .golden_path = path};
+    results->cases[results->count++] =
+        (struct golden_case){.name = say_text("%s", name),
+                             .kind = kind,
+                             .status = GOLDEN_ORPHAN,
+                             .golden_path = path,
+                             .prune_command = say_text("%s --prune", results->accept)};
 }
 
 static bool is_orphan(const struct search *search, const char *golden) {

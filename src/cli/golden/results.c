@@ -20,16 +20,28 @@ size_t golden_count(const struct golden_results *results, enum golden_status sta
 
 char *golden_summary(const struct golden_results *results) {
     char *text = say_text("%zu golden%s", results->count, results->count == 1 ? "" : "s");
+    size_t counts[GOLDEN_STATUSES + 1] = {0}; /* the last of what is taken, whatever it was */
     const char *before = ": ";
-    for (enum golden_status s = 0; s < GOLDEN_STATUSES; s++) {
-        const size_t count = golden_count(results, s);
-        if (count == 0) continue;
-        char *longer = say_text("%s%s%zu %s", text, before, count, GOLDEN_STATUS[s]);
+    for (size_t i = 0; i < results->count; i++)
+        counts[results->cases[i].taken ? GOLDEN_STATUSES : results->cases[i].status]++;
+    for (enum golden_status s = 0; s <= GOLDEN_STATUSES; s++) {
+        if (counts[s] == 0) continue;
+        char *longer =
+            say_text("%s%s%zu %s", text, before, counts[s], s < GOLDEN_STATUSES ? GOLDEN_STATUS[s] : "taken");
         free(text);
         text = longer;
         before = ", ";
     }
     return text;
+}
+
+char *golden_accept_words(const char *folder, const char *output) {
+    char *quoted_folder = word_quoted(folder), *quoted_output = word_quoted(output ? output : "");
+    char *words = say_text("monge accept --golden %s%s%s", quoted_folder, output ? " --output " : "",
+                           output ? quoted_output : "");
+    free(quoted_output);
+    free(quoted_folder);
+    return words;
 }
 
 char *golden_interruption(const struct golden_results *results) {

@@ -20,11 +20,14 @@ struct golden_results {
 
 size_t golden_count(const struct golden_results *results, enum golden_status status);
 
-/* "30 goldens: 27 same, 2 changed, 1 new". To be freed. */
+/* "30 goldens: 27 same, 2 changed, 1 new"; what is taken counts as that: "30 goldens: 27 same, 3 taken". To be freed. */
 char *golden_summary(const struct golden_results *results);
 
 /* "interrupted: 3 scenes not judged"; NULL: it was not. To be freed. */
 char *golden_interruption(const struct golden_results *results);
+
+/* The words of a shell that take new pictures: of the run in `output`, NULL: in the usual folder. To be freed. */
+char *golden_accept_words(const char *folder, const char *output);
 
 /* The document. To be freed; its end is a line break. */
 char *golden_results_text(const struct golden_results *results);

@@ -28,9 +28,22 @@ char *golden_detail(const struct golden_case *c) {
                             c->now.bits, c->old.width, c->old.height, c->old.bits);
         return say_text("its pixels are not those of the hash");
     case GOLDEN_NEW: return say_text("there is no golden yet");
-    case GOLDEN_ORPHAN: return say_text("no scene makes it any more: `monge accept --prune` removes it");
+    case GOLDEN_ORPHAN: return say_text("no scene makes it any more: `%s` removes it", c->prune_command);
     default: return NULL;
     }
+}
+
+/* The line of an error among those of a message, which may begin with warnings; else its first one. */
+static char *first_line(const char *message) {
+    const char *error = strstr(message, ": error["), *line = message;
+    for (const char *c = message; error && c < error; c++)
+        if (*c == '\n') line = c + 1;
+    return say_text("%.*s", (int)strcspn(line, "\n"), line);
+}
+
+char *golden_headline(const struct golden_case *c) {
+    char *detail = golden_detail(c);
+    return detail ? detail : first_line(c->message ? c->message : "");
 }
 
 /* A text of perhaps many lines; control characters, which may come from file names, made harmless. */
@@ -104,14 +117,14 @@ static void put_description(FILE *out, const char *name) {
 }
 
 static void put_block(FILE *to, const struct golden_case *c) {
-    char *detail = golden_detail(c), *lines = golden_details(c);
+    char *headline = golden_headline(c), *lines = golden_details(c);
     fprintf(to, "  ---\n  status: %s\n  detail: ", GOLDEN_STATUS[c->status]);
-    monge_write_json_string(detail ? detail : "", to);
+    monge_write_json_string(headline, to);
     fputs("\n  lines: ", to);
     monge_write_json_string(lines, to);
     fputs("\n  ...\n", to);
     free(lines);
-    free(detail);
+    free(headline);
 }
 
 static void tell_tap(const struct golden_teller *teller, const struct golden_case *c) {

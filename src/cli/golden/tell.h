@@ -22,6 +22,9 @@ void golden_tell_end(struct golden_teller *teller, const struct golden_results *
 /* What is to be said of a case beside its status: a sentence to its line; NULL: nothing. To be freed. */
 char *golden_detail(const struct golden_case *c);
 
+/* The same, and else the first thing that is wrong with it: a line to show in a list, "" where there is none. To be freed. */
+char *golden_headline(const struct golden_case *c);
+
 /* All the rest, perhaps many lines. To be freed. */
 char *golden_details(const struct golden_case *c);
 

@@ -22,7 +22,6 @@
 #include "cli/pattern.h"
 #include "cli/say.h"
 #include "cli/scene_path.h"
-#include "cli/words.h"
 
 /* A run, what has become of it, and how it is told. */
 struct test {
@@ -449,21 +448,14 @@ static enum status run_test(struct test *test) {
 
 static void mention_folder(const struct test *test) {
     if (golden_is_there(test->run.folder) || test->teller.quiet) return;
-    say_note("there is no folder %s yet: %s makes it", test->run.folder,
-             wants(test, OPTION_UPDATE_ONLY_FAILED) ? "this run" : "`monge accept`");
+    if (wants(test, OPTION_UPDATE_ONLY_FAILED))
+        say_note("there is no folder %s yet: this run makes it", test->run.folder);
+    else
+        say_note("there is no folder %s yet: `%s` makes it", test->run.folder, test->results.accept);
 }
 
 static bool is_standard(const struct option_value *option) {
     return option->given && strcmp(option->text, "-") == 0;
-}
-
-static char *accept_words(const struct golden_run *run, bool usual) {
-    char *folder = word_quoted(run->folder), *output = word_quoted(run->output);
-    char *words =
-        say_text("monge accept --golden %s%s%s", folder, usual ? "" : " --output ", usual ? "" : output);
-    free(output);
-    free(folder);
-    return words;
 }
 
 static bool begin(struct test *test, const struct arguments *args) {
@@ -494,7 +486,7 @@ static bool begin(struct test *test, const struct arguments *args) {
                                .colors = isatty(fileno(out)) && !getenv("NO_COLOR")};
     test->results.folder = say_text("%s", run->folder);
     test->results.from = getcwd(NULL, 0);
-    test->results.accept = accept_words(run, !option[OPTION_TEST_OUTPUT].given);
+    test->results.accept = golden_accept_words(run->folder, option[OPTION_TEST_OUTPUT].text);
     const enum monge_golden_kind kind = (enum monge_golden_kind)option[OPTION_GOLDEN_KIND].choice;
     if (!golden_check_folder(run->folder) || (run->old_program && !golden_check_old(run->old_program)) ||
         !loader_begin(&run->loader, args) ||
