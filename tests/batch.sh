@@ -272,6 +272,7 @@ if have python3; then
 import json, re
 lines = [json.loads(line) for line in open("err") if line.startswith("{")]
 assert [line["done"] for line in lines] == sorted(line["done"] for line in lines) and len(lines) >= 8
+assert [line["part"] for line in lines] == sorted(line["part"] for line in lines)
 last = lines[-1]
 assert (last["done"], last["total"], last["rendered"], last["failed"]) == (8, 8, 7, 1)
 assert last["part"] == 1 and last["seconds_left"] == 0 and lines[0]["seconds"] >= 0
@@ -296,6 +297,8 @@ last='render --progress json of a pipe'; mkfifo pipe.yaml; "$monge" render pipe.
 await 'grep -q "\"part\": 0.0000.*\"running\": \[\]" err'; ok "lines while a scene is read" grep -q '"done": 0, "total": 2' err
 cat 02.yaml >pipe.yaml; wait $pid; rm pipe.yaml bar/pipe.png
 patient '--] ' 02.yaml -o bar/ --size 32x32 --progress always # of a single tile
+printf 'image: {size: [32, 32]}\nscene: [{sphere: {}}]\n' >tile.yaml; exits 0 render tile.yaml -o bar/ --threads 1 --progress json --samples "$(samples_for 1 tile.yaml)"
+ok "within it the time that is left is known" sh -c 'grep -v "\"pixels\": 1024, " err | grep -q "\"seconds_left\": [0-9]*[.].*\"pixels\": [1-9]"'; rm tile.yaml
 patient '1 of 2 pictures  03  [' 0[1-3].yaml -j 1 -o bar/ --size 400x300 --progress always
 cd ..
 

@@ -252,7 +252,7 @@ const struct command_row COMMAND_TABLE[COMMANDS] = {
                  "with --frames; what is wrong in others is for `monge check` to tell.",
                  "--progress json writes a line when the first picture is begun, for each that is done, at "
                  "most ten "
-                 "a second when others are begun or tiles are done, and about one a second else: an object "
+                 "a second when others are begun or pixels are done, and about one a second else: an object "
                  "with done, total, rendered, unchanged, failed (pictures), part (0 to "
                  "1), seconds, seconds_left (null: unknown), and running, a list of objects with scene, "
                  "output, "

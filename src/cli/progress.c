@@ -167,6 +167,14 @@ static double part_done(const struct progress *p, double seconds_left) {
     return (double)count_done(p) / (double)p->pictures;
 }
 
+/* The part of the pictures tells nothing of the time; of that it never goes back: where more turns out to be left, it waits. */
+static double part_shown(struct progress *p, double seconds_left) {
+    const double part = part_done(p, seconds_left);
+    if (p->worked == 0.0) return part;
+    if (part > p->part) p->part = part;
+    return p->part;
+}
+
 /* ---- The batch ---- */
 
 static void print_running(const struct progress_unit *unit) {
@@ -178,13 +186,12 @@ static void print_running(const struct progress_unit *unit) {
     fprintf(stderr, ", \"pixels\": %" PRIu64 ", \"of_pixels\": %" PRIu64 "}", unit->pixels, unit->of_pixels);
 }
 
-static void print_json(const struct progress *p, double left) {
+static void print_json(const struct progress *p, double part, double left) {
     flockfile(stderr); /* in one piece, whatever other threads say */
     fprintf(stderr, "{\"done\": %zu, \"total\": %zu, \"rendered\": %zu, \"unchanged\": %zu, \"failed\": %zu",
             count_done(p), p->pictures, p->done[PICTURE_RENDERED], p->done[PICTURE_UNCHANGED],
             p->done[PICTURE_FAILED]);
-    fprintf(stderr, ", \"part\": %.4f, \"seconds\": %.3f, \"seconds_left\": ", part_done(p, left),
-            p->now - p->start);
+    fprintf(stderr, ", \"part\": %.4f, \"seconds\": %.3f, \"seconds_left\": ", part, p->now - p->start);
     fprintf(stderr, left < 0.0 ? "null" : "%.3f", left);
     fputs(", \"running\": [", stderr);
     bool any = false;
@@ -207,17 +214,17 @@ static const char *name_at_work(const struct progress *p) {
 
 static void show(struct progress *p) {
     char title[8 * MAX_COLUMNS];
-    const double left = progress_seconds_left(p);
+    const double left = progress_seconds_left(p), part = part_shown(p, left);
     p->shown = p->now;
     if (p->wish == PROGRESS_JSON) {
-        print_json(p, left);
+        print_json(p, part, left);
         return;
     }
     if (p->pictures > 1)
         snprintf(title, sizeof title, "%zu of %zu pictures  %s", count_done(p), p->pictures, name_at_work(p));
     else
         snprintf(title, sizeof title, "%s", name_at_work(p));
-    draw_bar(p, title, part_done(p, left), left);
+    draw_bar(p, title, part, left);
 }
 
 static bool is_due(const struct progress *p) { return p->now - p->shown >= INTERVAL; }

@@ -52,6 +52,7 @@ struct progress {
     size_t known_units;         /* whose work is known, */
     double known_work, reading; /* how much that is, and the time before it was */
     double worked, seconds;     /* rendered of it, and how long that took */
+    double part;                /* 0 to 1: the greatest that was shown since there is something rendered */
     double start, now, shown;   /* seconds by clock_seconds; now: up to which they are shared */
     size_t columns;             /* of the line that stands; 0: none */
     pthread_t ticker;           /* shows again, about once a second, what does not change, */

@@ -51,29 +51,36 @@ static struct monge_region tile_region(const struct run *run, uint32_t tile) {
                                  height < TILE_SIZE ? height : TILE_SIZE};
 }
 
-/* False: the watch has stopped. */
-static bool make_pixels(const struct tiling *tiling, const struct monge_region *tile,
-                        struct tracing *tracing) {
-    for (uint32_t y = tile->y; y < tile->y + tile->height; y++)
+static void count_pixels(struct run *run, uint64_t pixels) {
+    report(run, atomic_fetch_add(&run->pixels_done, pixels) + pixels);
+}
+
+/* Told of row by row: where there are few tiles, with many samples, one may take long. False: the watch has stopped. */
+static bool make_pixels(struct run *run, const struct monge_region *tile, struct tracing *tracing) {
+    const struct tiling *tiling = run->tiling;
+    for (uint32_t y = tile->y; y < tile->y + tile->height; y++) {
         for (uint32_t x = tile->x; x < tile->x + tile->width; x++) {
             tiling->pixel(tiling->context, x, y, tracing);
             if (tracing->watch.stop != ACCEL_GOES_ON) return false;
         }
+        count_pixels(run, tile->width);
+    }
     return true;
 }
 
 /* Where somebody keeps the tiles: makes it only where it is not known. */
-static bool fill_tile(const struct tiling *tiling, const struct monge_region *tile, struct tracing *tracing) {
+static void fill_tile(struct run *run, const struct monge_region *tile, struct tracing *tracing) {
+    const struct tiling *tiling = run->tiling;
     const struct monge_tiles *tiles = tiling->rgb ? tiling->job->tiles : NULL;
     const struct monge_region *region = &tiling->region;
     const struct monge_region in_picture = {region->x + tile->x, region->y + tile->y, tile->width,
                                             tile->height};
     const size_t stride = 3 * (size_t)region->width;
     float *rgb = tiles ? tiling->rgb + tile->y * stride + 3 * (size_t)tile->x : NULL;
-    if (tiles && tiles->known(tiles->context, &in_picture, rgb, stride)) return true;
-    if (!make_pixels(tiling, tile, tracing)) return false;
-    if (tiles) tiles->done(tiles->context, &in_picture, rgb, stride);
-    return true;
+    if (tiles && tiles->known(tiles->context, &in_picture, rgb, stride))
+        count_pixels(run, (uint64_t)tile->width * tile->height);
+    else if (make_pixels(run, tile, tracing) && tiles)
+        tiles->done(tiles->context, &in_picture, rgb, stride);
 }
 
 static uint32_t greatest_divisor(uint32_t a, uint32_t b) { return b == 0 ? a : greatest_divisor(b, a % b); }
@@ -96,9 +103,7 @@ static uint32_t tile_of(const struct order *order, uint32_t next) {
 
 static void make_tile(struct run *run, uint32_t number, struct tracing *tracing) {
     const struct monge_region tile = tile_region(run, number);
-    const uint64_t pixels = (uint64_t)tile.width * tile.height;
-    if (fill_tile(run->tiling, &tile, tracing))
-        report(run, atomic_fetch_add(&run->pixels_done, pixels) + pixels);
+    fill_tile(run, &tile, tracing);
 }
 
 static void make_tiles(void *context, unsigned thread) {

@@ -107,6 +107,7 @@ static size_t run(const struct row *row) {
     struct progress progress;
     const size_t count = make_works(row, works);
     size_t done = 0, step = 0;
+    double part = 0.0;
     now = 1000.0;
     progress_begin(&progress, PROGRESS_NEVER, true, count, 0);
     while (done < count) {
@@ -120,6 +121,9 @@ static size_t run(const struct row *row) {
         }
         share_time(&progress); /* as whatever is told of does */
         steps[step++] = (struct step){now - 1000.0, progress_seconds_left(&progress)};
+        const double before = part;
+        part = part_shown(&progress, steps[step - 1].left);
+        assert_true(part >= before && part <= 1.0);
         assert_true(step < MAX_STEPS);
         now += STEP;
         done = 0;
@@ -129,6 +133,7 @@ static size_t run(const struct row *row) {
         }
     }
     assert_near(progress_seconds_left(&progress), 0.0, 0.0, "when all is done");
+    assert_near(part_shown(&progress, 0.0), 1.0, 0.0, "the part that is done then");
     progress_end(&progress);
     return step;
 }
@@ -179,13 +184,14 @@ static void unchanged_ones_and_failures_say_nothing_of_the_pace(void **state) {
         progress_unit_end(&units[i]);
     }
     assert_true(progress_seconds_left(&progress) < 0.0);
-    assert_near(part_done(&progress, -1.0), 3.0 / 5.0, 1e-9, "the part");
+    assert_near(part_shown(&progress, -1.0), 3.0 / 5.0, 1e-9, "the part");
     progress_unit_begin(&units[2], &progress);
     progress_picture(&units[2], "scene", &picture, 0);
     now += 1.0;
     progress_update(&units[2], 250, 1000);
     assert_near(progress_seconds_left(&progress), 3.0 + 4.0, 1e-6, "seconds left");
-    assert_near(part_done(&progress, 7.0), 1.0 / 8.0, 1e-6, "the part");
+    assert_near(part_shown(&progress, 7.0), 1.0 / 8.0, 1e-6, "the part");
+    assert_near(part_shown(&progress, 9.0), 1.0 / 8.0, 1e-6, "the part, when more turns out to be left");
     assert_int_equal(count_done(&progress), 3);
     progress_end(&progress);
 }
