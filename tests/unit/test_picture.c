@@ -86,11 +86,15 @@ static void all_neighbors_are_told_apart(void **state) {
 static uint8_t key_8(size_t x, size_t y, size_t i) {
     return (uint8_t)(10 + 10 * i + (x % 5 == i + 1) + (y % 7 == 6));
 }
-static uint8_t key_16(size_t x, size_t y, size_t i) { return i % 2 == 0 ? y % 7 == 6 : key_8(x, y, i / 2); }
-static uint8_t key_grey_8(size_t x, size_t y, size_t i) {
-    return (uint8_t)(x % 5 == 1 ? x : 1 + (y % 7 == 6) + i);
+static uint8_t key_16(size_t x, size_t y, size_t i) {
+    return (uint8_t)(i % 2 == 0 ? y % 7 == 6 : key_8(x, y, i / 2));
 }
-static uint8_t key_grey_16(size_t x, size_t y, size_t i) { return i == 0 ? x % 5 == 1 : key_grey_8(x, y, 0); }
+static uint8_t key_grey_8(size_t x, size_t y, size_t i) {
+    return (uint8_t)(x % 5 == 1 ? x : i + (y % 7 == 6 ? 2 : 1));
+}
+static uint8_t key_grey_16(size_t x, size_t y, size_t i) {
+    return (uint8_t)(i == 0 ? x % 5 == 1 : key_grey_8(x, y, 0));
+}
 
 /* Pixels of the transparent colour, beside others that are not it in one channel alone. */
 static void one_color_is_transparent(void **state) {
