@@ -193,6 +193,18 @@ void monge_film_scene_hash(const struct monge_film *film, char hash[MONGE_HASH_S
     hash_text(&film->scene, hash);
 }
 
+/* The shapes of a scene, with their materials. */
+static struct hash hash_objects(const struct scene *scene) {
+    struct hash hash;
+    const struct scene objects = {.materials = scene->materials,
+                                  .primitives = scene->primitives,
+                                  .geometries = scene->geometries,
+                                  .geometry_count = scene->geometry_count};
+    hash_begin(&hash);
+    scene_hash(&objects, &hash);
+    return hash;
+}
+
 /* What made the picture: all of it, and the camera apart from the rest. */
 static void stamp_layers(struct monge_layers *layers, const struct scene *scene,
                          const struct monge_settings *settings) {
@@ -202,6 +214,8 @@ static void stamp_layers(struct monge_layers *layers, const struct scene *scene,
     others.camera = (struct camera){.projection = CAMERA_PERSPECTIVE};
     hash = fingerprint(&others, settings);
     hash_text(&hash, layers->camera.others);
+    hash = hash_objects(scene);
+    hash_text(&hash, layers->camera.objects);
     hash_begin(&given);
     camera_hash(&scene->camera, &given);
     hash_text(&given, layers->camera.given);

@@ -523,6 +523,7 @@ struct monge_entry {
     const char *kind;      /* "sphere", "group", "use of leg", "material" */
     const char *file;      /* NULL: the default material, which is in no file */
     uint32_t line, column; /* from 1 */
+    const char *hash;      /* of what a material is; NULL: not known, or no material */
 };
 
 /* Renders the layers of the set `wanted` as monge_render does the picture. NULL when cancelled, out of memory, or
@@ -556,8 +557,9 @@ size_t monge_layer_path(enum monge_layer layer, const char *picture, char *path,
 
 /* Writes one layer that is there. PNG of 16 bits, of one channel or where that is not enough of three, the lowest
  * 16 bits in red, then green and blue; objects and materials with their entries as JSON in the text chunk
- * monge:table, objects with the hash of the depth, where that is there, in monge:depth. Depth is a PFM. A file is
- * complete or absent. False: diag says why, as a failure. */
+ * monge:table, objects with the camera in monge:camera, lights in monge:lights, settings in monge:settings and the hash of
+ * the depth, where that is there, in monge:depth. Depth is a PFM. A file is complete or absent. False: diag says why,
+ * as a failure. */
 bool monge_layer_write(const struct monge_layers *layers, enum monge_layer layer, const char *path,
                        struct monge_diagnostics *diag);
 
@@ -576,21 +578,29 @@ enum monge_change_kind {
     MONGE_CHANGE_GEOMETRY,    /* it has moved or another shape */
     MONGE_CHANGE_APPEARED,    /* nothing of it was seen before */
     MONGE_CHANGE_DISAPPEARED, /* nothing of it is seen any more */
-    MONGE_CHANGE_MATERIAL,    /* geometry equal, a material of another name */
+    MONGE_CHANGE_MATERIAL,    /* geometry equal, another material; of an older file: of another name */
     MONGE_CHANGE_SHADOW,      /* geometry equal, other lights reach it */
-    MONGE_CHANGE_SHADING,     /* geometry equal, and no other reason: its colour, lights, what it mirrors */
+    MONGE_CHANGE_SHADING, /* geometry equal, and no other reason: what it mirrors, or of older files all else */
     MONGE_CHANGE_CAMERA,      /* the camera stands elsewhere */
     MONGE_CHANGE_VIEW,        /* it stands as before: turned, of another angle, height or projection */
     MONGE_CHANGE_FRAMING,     /* what the scene leaves open of it follows other bounds of the scene */
     MONGE_CHANGE_OTHERS,      /* beside the camera there is more; of which object is not known */
+    MONGE_CHANGE_LIGHT_PLACE, /* a light stands elsewhere */
+    MONGE_CHANGE_LIGHT_COLOR, /* it is of another colour, or stronger or weaker */
+    MONGE_CHANGE_LIGHT,       /* both */
+    MONGE_CHANGE_SETTING,     /* of the image or the rendering */
+    MONGE_CHANGE_FOLLOWING,   /* objects that look different by lights or settings alone */
     MONGE_CHANGES
 };
 
-/* `object` is what changed, as the newer layers have it, or the older ones where it is gone; or the newer camera. */
+/* `object` is what changed, as the newer layers have it, or the older ones where it is gone; or the newer camera, or a
+ * light. */
 struct monge_change {
     enum monge_change_kind kind;
-    const struct monge_entry *object; /* NULL: the background, or what is not known */
-    uint64_t pixels;                  /* that this made different; 0: not known */
+    const struct monge_entry *object;    /* NULL: the background, a setting, or what is not known */
+    const char *setting, *older, *newer; /* its name, and its values as texts; NULL: it is no setting */
+    uint32_t objects;                    /* how many, of MONGE_CHANGE_FOLLOWING; else 0 */
+    uint64_t pixels;                     /* that this made different; 0: not known */
     struct monge_region bounds; /* around them, from the top left corner; of what has moved, around where */
 };
 
@@ -599,11 +609,16 @@ struct monge_change {
  * those count that both have. Objects are the same by their names; those without one, or with one name for several, by kind
  * and by what is seen at the same place, then by their order. The first `room` changes, those of most pixels first;
  * *count is how many there are. They point into the layers. Of pictures with other bits or in another colour space, which
- * differ everywhere by that, geometry and materials are told alone.
+ * differ everywhere by that, geometry and materials are told alone, behind the settings.
  *
- * With another camera the passes do not tell which objects moved: then the camera is the first change, and where more
- * of the scene or its settings has changed, that is the second and last. Layers of files that do not tell their camera
- * are taken to have the same. False: diag says why, as a failure. */
+ * Where lights, the background or settings have changed, these are the first changes, and their pixels those of all
+ * objects that look different by them alone: of which only the number is told, by one change behind. Lights have no
+ * names: they are the same by place and colour, by one of these, then by their order; those that a loop makes and
+ * that changed alike are one.
+ *
+ * With another camera the passes do not tell which objects moved: then the camera is the first change, lights and
+ * settings are next, and where more of the scene has changed, that is the last. Layers of files that do not tell
+ * their camera, lights or settings are taken to have the same. False: diag says why, as a failure. */
 bool monge_changes(struct monge_picture *older, const struct monge_layers *older_layers,
                    struct monge_picture *newer, const struct monge_layers *newer_layers,
                    const struct monge_compare *how, struct monge_change *changes, size_t room, size_t *count,

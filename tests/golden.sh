@@ -671,7 +671,7 @@ there g/one.object.png; there g/one.depth.pfm
 exits 0 test s --golden g; out_lacks orphan
 scene s/one.yaml blue 1.7
 exits 1 test s --golden g
-out_has 'object "ball" (s/one.yaml:5): shading changed, geometry equal'
+out_has 'object "ball" (s/one.yaml:5): material changed, geometry equal'
 out_has 'object "lid" (s/one.yaml:8): geometry moved'
 out_has 'object "floor" (s/one.yaml:11): shadow changed'
 exits 0 accept --golden g; exits 0 test s --golden g
@@ -709,12 +709,58 @@ fi
 sed -i '/^camera/d' s/one.yaml; exits 1 test s --golden g -q; exits 0 accept --golden g -q
 scene s/one.yaml blue 1.9; sed -i '/^camera/d' s/one.yaml
 exits 1 test s --golden g; out_has "camera: framing by the scene's bounds changed"; out_has 'other changes too'; out_lacks 'object "'
+# lights and settings: these, and what follows from them by one line; what an object has of its own is told
+scene s/one.yaml blue; exits 1 test s --golden g -q; exits 0 accept --golden g -q
+sed -i 's/at: \[3/at: [-3/; s/^image: {/&background: "#203040", /' s/one.yaml
+exits 1 test s --golden g --json j.json --report r
+out_has 'point light (s/one.yaml:3): moved'; out_has 'background: colour changed'
+out_has 'shading of 3 objects changed by that, geometry and materials equal'; out_lacks 'object "'
+ok 'results say so too, the causes first' grep -qF '"changes": ["point light (s/one.yaml:3): moved", "background: colour changed", "shading of 3 objects' j.json
+ok 'and the page' grep -qF 'point light (s/one.yaml:3): moved' r/index.html
+rm -r j.json r
+scene s/one.yaml red; sed -i 's/at: \[3/color: [1, 1, 0.9], &/; s/samples: 1/samples: 2/' s/one.yaml
+exits 1 test s --golden g
+out_has 'point light (s/one.yaml:3): colour or strength changed'; out_has 'settings: samples 1 -> 2'
+out_has 'shading of 2 objects changed by that'; out_has 'object "ball" (s/one.yaml:5): material changed, geometry equal'
+if have python3; then # a golden of a program that did not tell them is told as by that program, and is left alone while it is the same
+    scene s/one.yaml blue; exits 0 test s --golden g -q
+    ok 'passes as of then' python3 - <<'PYTHON'
+import re, struct, zlib
+def chunk(kind, data): return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+for name in "object", "material":
+    path = f"g/one.{name}.png"
+    data = open(path, "rb").read()
+    at, kept, gone = 8, data[:8], 0
+    while at < len(data):
+        size = struct.unpack(">I", data[at:at + 4])[0]
+        kind, content = data[at + 4:at + 8], data[at + 8:at + 8 + size]
+        at += 12 + size
+        key = content.split(b"\0")[0]
+        if kind == b"iTXt" and key in (b"monge:lights", b"monge:settings"):
+            gone += 1
+            continue
+        if kind == b"iTXt" and key == b"monge:table" and name == "material":
+            packed, text = content[len(key) + 1], content[len(key) + 5:]
+            text, gone = re.subn(rb', "hash": "[0-9a-f]{32}"', b"", zlib.decompress(text) if packed else text)
+            content = key + bytes(5) + text
+        kept += chunk(kind, content)
+    assert gone == 2, (name, gone) # two texts; two materials
+    open(path, "wb").write(kept)
+PYTHON
+    before=$(sums g); exits 0 test s --golden g --update-only-failed -q; ok 'the same is left as it is' [ "$before" = "$(sums g)" ]
+    cp g/one.object.png old.png; cp g/two.png g/one.png; exits 1 test s --golden g -q; exits 0 accept --golden g -q
+    ok 'what is accepted tells them, of the same scene too' grep -q monge:lights g/one.object.png
+    mv old.png g/one.object.png; sed -i 's/at: \[3/at: [-3/' s/one.yaml; exits 1 test s --golden g
+    out_lacks 'point light'; out_lacks 'by that'; out_has 'object "ball" (s/one.yaml:5): shading changed, geometry equal'
+    exits 0 accept --golden g -q
+fi
 rm s/one.yaml; exits 1 test s --golden g; exits 0 accept --golden g --prune; missing g/one.object.png
 # other bits or another encoding alone are no shading; what moved or is of another material is told still
 for options in '--bits 16' '--encoding linear'; do
     fresh 'rules: [{scenes: one, aov: true}]'; sed -i 's/^    material: {diffuse: red}/    material: m/; 1i materials: {m: {diffuse: red}, n: {diffuse: blue}}' s/one.yaml
     exits 0 test s --golden g --update-only-failed -q; sed -i "s/aov: true/&, options: $options/" g/golden.yaml
     exits 1 test s --golden g; says changed one; out_lacks ' changed, geometry'; out_lacks 'shadow changed'; out_lacks 'background'; out_lacks 'geometry moved'
+    case $options in *16) out_has 'settings: bits 8 -> 16' ;; *) out_has 'settings: encoding srgb -> linear' ;; esac
     sed -i 's/material: m$/material: n/; s/\[1.5, 0/[1.7, 0/' s/one.yaml; exits 1 test s --golden g
     out_has 'object "ball" (s/one.yaml:6): material changed, geometry equal'; out_has 'object "lid" (s/one.yaml:9): geometry moved'; out_lacks floor; out_lacks background
 done

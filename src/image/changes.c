@@ -7,6 +7,8 @@
 
 #include "base/arena.h"
 #include "image/camera_change.h"
+#include "image/conditions_change.h"
+#include "image/material_change.h"
 
 enum { OLDER, NEWER, SIDES };
 
@@ -31,6 +33,7 @@ struct inquiry {
     uint32_t *object[SIDES]; /* the track of each pixel */
     uint32_t *cause;         /* the track that is the cause of a difference, or NOBODY */
     uint8_t *kind;           /* enum monge_change_kind of that */
+    struct conditions_change conditions;
 };
 
 static bool both(const struct inquiry *c, enum monge_layer layer) {
@@ -306,29 +309,20 @@ static uint32_t one_in_front(const struct inquiry *c, size_t i) {
     return c->tracks[b].entry[OLDER] ? a : b;
 }
 
-/* Materials without a name are told apart by nothing that stays. */
-static bool same_material(const struct inquiry *c, size_t i) {
-    const char *name[SIDES];
-    if (!both(c, MONGE_LAYER_MATERIAL)) return true;
-    for (int side = 0; side < SIDES; side++) {
-        const struct monge_layers *layers = c->layers[side];
-        const struct monge_entry *entry =
-            monge_layers_entry(layers, MONGE_LAYER_MATERIAL, layers->ids[MONGE_LAYER_MATERIAL][i]);
-        name[side] = entry ? entry->name : NULL;
-    }
-    return name[OLDER] && name[NEWER] ? strcmp(name[OLDER], name[NEWER]) == 0 : name[OLDER] == name[NEWER];
-}
-
 /* Why a pixel of an object that has not moved is of another colour. */
 static enum monge_change_kind kind_of(const struct inquiry *c, size_t i) {
-    if (!same_material(c, i)) return MONGE_CHANGE_MATERIAL;
-    if (both(c, MONGE_LAYER_SHADOW) && c->layers[OLDER]->lights[i] != c->layers[NEWER]->lights[i])
-        return MONGE_CHANGE_SHADOW;
-    return MONGE_CHANGE_SHADING;
+    const enum material_change materials = material_change(c->layers[OLDER], c->layers[NEWER], i);
+    if (materials == OTHER_MATERIAL) return MONGE_CHANGE_MATERIAL;
+    const bool shadow =
+        both(c, MONGE_LAYER_SHADOW) && c->layers[OLDER]->lights[i] != c->layers[NEWER]->lights[i];
+    const enum monge_change_kind kind = shadow ? MONGE_CHANGE_SHADOW : MONGE_CHANGE_SHADING;
+    const bool follows = materials == SAME_MATERIAL && c->conditions.follow >> kind & 1;
+    return follows ? MONGE_CHANGE_FOLLOWING : kind;
 }
 
 static bool looks_different(const struct inquiry *c, size_t i) {
-    return c->differs ? c->differs[i] : c->object[OLDER][i] && !same_material(c, i);
+    return c->differs ? c->differs[i]
+                      : material_change(c->layers[OLDER], c->layers[NEWER], i) == OTHER_MATERIAL;
 }
 
 static void accuse(struct inquiry *c, size_t i, uint32_t track, enum monge_change_kind kind) {
@@ -422,6 +416,7 @@ static void sum_up(struct track *track) {
     if (!track->pixels[MONGE_CHANGE_GEOMETRY]) return;
     move_pixels(track, MONGE_CHANGE_SHADOW, MONGE_CHANGE_GEOMETRY);
     move_pixels(track, MONGE_CHANGE_SHADING, MONGE_CHANGE_GEOMETRY);
+    move_pixels(track, MONGE_CHANGE_FOLLOWING, MONGE_CHANGE_GEOMETRY);
     const enum monge_change_kind kind = !track->entry[OLDER]   ? MONGE_CHANGE_APPEARED
                                         : !track->entry[NEWER] ? MONGE_CHANGE_DISAPPEARED
                                                                : MONGE_CHANGE_GEOMETRY;
@@ -450,50 +445,90 @@ static int compare_changes(const void *a, const void *b) {
     return (p->kind > q->kind) - (p->kind < q->kind);
 }
 
-static size_t list_changes(const struct inquiry *c, struct monge_change *changes, size_t room) {
+/* The first changes, and how many there are. */
+struct listing {
+    struct monge_change *changes;
+    size_t room, count;
+};
+
+static void put(struct listing *l, struct monge_change change) {
+    if (l->count < l->room) l->changes[l->count] = change;
+    l->count++;
+}
+
+/* What looks different by lights and settings alone; nothing where there are no tracks. */
+static struct monge_change sum_following(const struct inquiry *c) {
+    struct monge_change sum = {.kind = MONGE_CHANGE_FOLLOWING};
+    for (uint32_t t = 0; t < c->track_count; t++) {
+        const uint64_t pixels = c->tracks[t].pixels[MONGE_CHANGE_FOLLOWING];
+        const struct monge_region r = c->tracks[t].bounds[MONGE_CHANGE_FOLLOWING];
+        if (pixels == 0) continue;
+        sum.pixels += pixels;
+        sum.objects += t > 0;
+        extend(&sum.bounds, r.x, r.y);
+        extend(&sum.bounds, r.x + r.width - 1, r.y + r.height - 1);
+    }
+    return sum;
+}
+
+/* Lights and settings, and what these have made different together. */
+static void list_conditions(const struct inquiry *c, struct listing *l) {
+    const struct monge_change following = sum_following(c);
+    for (uint32_t i = 0; i < c->conditions.count; i++) {
+        struct monge_change change = c->conditions.list[i];
+        change.pixels = following.pixels;
+        change.bounds = following.bounds;
+        put(l, change);
+    }
+    if (following.objects > 0) put(l, following);
+}
+
+static void list_objects(const struct inquiry *c, struct listing *l) {
     struct monge_change *all = arena_array(c->arena, (size_t)c->track_count * MONGE_CHANGES, sizeof *all);
     size_t count = 0;
     for (uint32_t t = 0; t < c->track_count; t++) {
         const struct track *track = &c->tracks[t];
         for (enum monge_change_kind kind = 0; kind < MONGE_CHANGES; kind++)
-            if (track->pixels[kind])
-                all[count++] = (struct monge_change){
-                    kind, track->entry[NEWER] ? track->entry[NEWER] : track->entry[OLDER],
-                    track->pixels[kind], track->bounds[kind]};
+            if (track->pixels[kind] && kind != MONGE_CHANGE_FOLLOWING)
+                all[count++] = (struct monge_change){.kind = kind,
+                                                     .object = track->entry[NEWER] ? track->entry[NEWER]
+                                                                                   : track->entry[OLDER],
+                                                     .pixels = track->pixels[kind],
+                                                     .bounds = track->bounds[kind]};
     }
     qsort(all, count, sizeof *all, compare_changes);
-    for (size_t i = 0; i < count && i < room; i++) changes[i] = all[i];
-    return count;
+    for (size_t i = 0; i < count; i++) put(l, all[i]);
 }
 
 /* ---- The camera ---- */
 
-static size_t list_camera(const struct inquiry *c, enum monge_change_kind kind, struct monge_change *changes,
-                          size_t room) {
-    const struct layer_camera *older = &c->layers[OLDER]->camera, *newer = &c->layers[NEWER]->camera;
-    struct monge_change all[] = {{.kind = kind, .object = &newer->entry}, {.kind = MONGE_CHANGE_OTHERS}};
-    const size_t count = strcmp(older->others, newer->others) == 0 ? 1 : 2;
+static void list_camera(const struct inquiry *c, enum monge_change_kind kind, struct listing *l) {
+    struct monge_change camera = {.kind = kind, .object = &c->layers[NEWER]->camera.entry};
+    const struct monge_change others = {.kind = MONGE_CHANGE_OTHERS};
     for (uint32_t y = 0; y < c->height; y++)
         for (uint32_t x = 0; x < c->width; x++) {
             if (c->differs && !c->differs[(size_t)y * c->width + x]) continue;
-            all[0].pixels++;
-            extend(&all[0].bounds, x, y);
+            camera.pixels++;
+            extend(&camera.bounds, x, y);
         }
-    for (size_t i = 0; i < count && i < room; i++) changes[i] = all[i];
-    return count;
+    put(l, camera);
+    list_conditions(c, l);
+    if (camera_others_changed(c->layers[OLDER], c->layers[NEWER])) put(l, others);
 }
 
 /* ---- All of it ---- */
 
-static bool compare(struct inquiry *c, struct monge_change *changes, size_t room, size_t *count) {
+static bool compare(struct inquiry *c, struct listing *l) {
+    const struct monge_layers *a = c->layers[OLDER], *b = c->layers[NEWER];
     const size_t pixels = (size_t)c->width * c->height;
     enum monge_change_kind camera;
     for (int side = 0; side < SIDES; side++) {
         c->object[side] = arena_array(c->arena, pixels, sizeof *c->object[side]);
         if (!index_objects(c, side)) return false;
     }
-    if (camera_change(&c->layers[OLDER]->camera, &c->layers[NEWER]->camera, &camera)) {
-        *count = list_camera(c, camera, changes, room);
+    c->conditions = conditions_change(&a->conditions, &b->conditions, c->arena);
+    if (camera_change(&a->camera, &b->camera, &camera)) {
+        list_camera(c, camera, l);
         return true;
     }
     c->cause = arena_array(c->arena, pixels, sizeof *c->cause);
@@ -503,7 +538,8 @@ static bool compare(struct inquiry *c, struct monge_change *changes, size_t room
     find_causes(c);
     settle_edges(c);
     count_pixels(c);
-    *count = list_changes(c, changes, room);
+    list_conditions(c, l);
+    list_objects(c, l);
     return true;
 }
 
@@ -522,46 +558,9 @@ bool changes_find(const struct monge_layers *older, const struct monge_layers *n
         arena_free(&arena);
         return false;
     }
-    const bool done = compare(&c, changes, room, count);
+    struct listing list = {changes, room, 0};
+    const bool done = compare(&c, &list);
+    *count = list.count;
     arena_free(&arena);
     return done;
-}
-
-/* ---- Words ---- */
-
-static const char *const kind_words[MONGE_CHANGES] = {
-    [MONGE_CHANGE_GEOMETRY] = "geometry moved",
-    [MONGE_CHANGE_APPEARED] = "appeared",
-    [MONGE_CHANGE_DISAPPEARED] = "disappeared",
-    [MONGE_CHANGE_MATERIAL] = "material changed, geometry equal",
-    [MONGE_CHANGE_SHADOW] = "shadow changed",
-    [MONGE_CHANGE_SHADING] = "shading changed, geometry equal",
-    [MONGE_CHANGE_CAMERA] = "moved",
-    [MONGE_CHANGE_VIEW] = "view changed",
-    [MONGE_CHANGE_FRAMING] = "framing by the scene's bounds changed",
-    [MONGE_CHANGE_OTHERS] = "other changes too, which cannot be told by object under another camera",
-};
-
-/* Spaces for control characters, those of two bytes too: names come from scenes, and this goes to terminals. */
-static void make_harmless(char *text) {
-    for (unsigned char *c = (unsigned char *)text; *c; c++) {
-        const bool wide = c[0] == 0xc2 && c[1] >= 0x80 && c[1] < 0xa0;
-        if (wide) c[1] = ' ';
-        if (wide || *c < 0x20 || *c == 0x7f) *c = ' ';
-    }
-}
-
-size_t monge_change_text(const struct monge_change *change, char *text, size_t size) {
-    const struct monge_entry *o = change->object;
-    const char *words = kind_words[change->kind];
-    if (change->kind == MONGE_CHANGE_OTHERS) return (size_t)snprintf(text, size, "%s", words);
-    if (!o) return (size_t)snprintf(text, size, "background: colour changed");
-    const char *before = o->name ? "object \"" : o->kind, *name = o->name ? o->name : "",
-               *after = o->name ? "\"" : "";
-    const char *was = change->kind == MONGE_CHANGE_DISAPPEARED ? "was at " : ""; /* the scene of then */
-    const int length = o->file ? snprintf(text, size, "%s%s%s (%s%s:%u): %s", before, name, after, was,
-                                          o->file, o->line, words)
-                               : snprintf(text, size, "%s%s%s: %s", before, name, after, words);
-    if (size > 0) make_harmless(text);
-    return (size_t)length;
 }

@@ -17,25 +17,47 @@ static void write_text(FILE *out, const char *key, const char *text) {
         fputs("null", out);
 }
 
+/* A text that is written to `out`. */
+struct printing {
+    FILE *out; /* NULL: no memory */
+    char *text;
+    size_t size;
+};
+
+static void printing_begin(struct printing *p) {
+    *p = (struct printing){.text = NULL};
+    p->out = open_memstream(&p->text, &p->size);
+}
+
+/* To be freed; NULL: no memory. */
+static char *printing_end(struct printing *p) {
+    const bool good = !ferror(p->out);
+    if (fclose(p->out) == 0 && good) return p->text;
+    free(p->text);
+    return NULL;
+}
+
+static void write_place(FILE *out, const struct monge_entry *e) {
+    write_text(out, "file", e->file);
+    fprintf(out, ", \"line\": %u, \"column\": %u", e->line, e->column);
+}
+
 char *layer_table_text(const struct layer_entries *entries) {
-    char *text = NULL;
-    size_t size = 0;
-    FILE *out = open_memstream(&text, &size);
-    if (!out) return NULL;
-    fputc('[', out);
+    struct printing p;
+    printing_begin(&p);
+    if (!p.out) return NULL;
+    fputc('[', p.out);
     for (uint32_t i = 0; i < entries->count; i++) {
         const struct monge_entry *e = &entries->list[i];
-        fprintf(out, "%s\n  {\"id\": %u", i ? "," : "", e->id);
-        write_text(out, "name", e->name);
-        write_text(out, "kind", e->kind);
-        write_text(out, "file", e->file);
-        fprintf(out, ", \"line\": %u, \"column\": %u}", e->line, e->column);
+        fprintf(p.out, "%s\n  {\"id\": %u", i ? "," : "", e->id);
+        write_text(p.out, "name", e->name);
+        write_text(p.out, "kind", e->kind);
+        write_place(p.out, e);
+        if (e->hash) write_text(p.out, "hash", e->hash);
+        fputc('}', p.out);
     }
-    fputs("\n]\n", out);
-    const bool good = !ferror(out);
-    if (fclose(out) == 0 && good) return text;
-    free(text);
-    return NULL;
+    fputs("\n]\n", p.out);
+    return printing_end(&p);
 }
 
 static void write_vec3(FILE *out, const char *before, const char *key, vec3 v) {
@@ -44,22 +66,51 @@ static void write_vec3(FILE *out, const char *before, const char *key, vec3 v) {
 
 char *layer_camera_text(const struct layer_camera *camera) {
     const struct view *v = &camera->view;
-    char *text = NULL;
-    size_t size = 0;
-    FILE *out = open_memstream(&text, &size);
-    if (!out) return NULL;
-    fprintf(out, "{\n  \"projection\": \"%s\"", v->orthographic ? "orthographic" : "perspective");
-    write_vec3(out, ",\n  ", "eye", v->eye);
-    write_vec3(out, ", ", "forward", v->forward);
-    write_vec3(out, ", ", "right", v->right);
-    write_vec3(out, ", ", "up", v->up);
-    fprintf(out, ",\n  \"given\": \"%s\", \"others\": \"%s\"", camera->given, camera->others);
-    write_text(out, "file", camera->entry.file);
-    fprintf(out, ", \"line\": %u, \"column\": %u\n}\n", camera->entry.line, camera->entry.column);
-    const bool good = !ferror(out);
-    if (fclose(out) == 0 && good) return text;
-    free(text);
-    return NULL;
+    struct printing p;
+    printing_begin(&p);
+    if (!p.out) return NULL;
+    fprintf(p.out, "{\n  \"projection\": \"%s\"", v->orthographic ? "orthographic" : "perspective");
+    write_vec3(p.out, ",\n  ", "eye", v->eye);
+    write_vec3(p.out, ", ", "forward", v->forward);
+    write_vec3(p.out, ", ", "right", v->right);
+    write_vec3(p.out, ", ", "up", v->up);
+    fprintf(p.out, ",\n  \"given\": \"%s\", \"others\": \"%s\"", camera->given, camera->others);
+    if (*camera->objects) write_text(p.out, "objects", camera->objects);
+    write_place(p.out, &camera->entry);
+    fputs("\n}\n", p.out);
+    return printing_end(&p);
+}
+
+char *layer_lights_text(const struct layer_conditions *conditions) {
+    struct printing p;
+    printing_begin(&p);
+    if (!p.out) return NULL;
+    fputc('[', p.out);
+    for (uint32_t i = 0; i < conditions->light_count; i++) {
+        const struct layer_light *light = &conditions->lights[i];
+        fprintf(p.out, "%s\n  {\"kind\": ", i ? "," : "");
+        json_string(light->entry.kind, p.out);
+        write_vec3(p.out, ", ", "at", light->at);
+        write_vec3(p.out, ", ", "color", light->color);
+        write_place(p.out, &light->entry);
+        fputc('}', p.out);
+    }
+    fputs("\n]\n", p.out);
+    return printing_end(&p);
+}
+
+char *layer_settings_text(const struct layer_conditions *conditions) {
+    struct printing p;
+    printing_begin(&p);
+    if (!p.out) return NULL;
+    for (uint32_t i = 0; i < conditions->setting_count; i++) {
+        fputs(i ? ", " : "{", p.out);
+        json_string(conditions->settings[i].name, p.out);
+        fputs(": ", p.out);
+        json_string(conditions->settings[i].value, p.out);
+    }
+    fputs("}\n", p.out);
+    return printing_end(&p);
 }
 
 /* ---- Reading ---- */
@@ -151,6 +202,7 @@ static bool read_member(struct scan *s, struct monge_entry *entry) {
     if (strcmp(key, "name") == 0) return read_text(s, &entry->name);
     if (strcmp(key, "kind") == 0) return read_text(s, &entry->kind);
     if (strcmp(key, "file") == 0) return read_text(s, &entry->file);
+    if (strcmp(key, "hash") == 0) return read_text(s, &entry->hash);
     return read_number(s, &number) || read_text(s, &text);
 }
 
@@ -220,6 +272,7 @@ static bool read_camera_member(struct scan *s, struct layer_camera *camera) {
     if (strcmp(key, "up") == 0) return read_vec3(s, &view->up);
     if (strcmp(key, "given") == 0) return read_hash(s, camera->given);
     if (strcmp(key, "others") == 0) return read_hash(s, camera->others);
+    if (strcmp(key, "objects") == 0) return read_hash(s, camera->objects);
     s->at = at;
     return read_member(s, &camera->entry);
 }
@@ -243,4 +296,66 @@ bool layer_camera_read(const char *text, struct arena *arena, struct layer_camer
     *camera = found;
     camera->entry.kind = "camera";
     return true;
+}
+
+/* ---- Reading lights and settings ---- */
+
+static bool read_light_member(struct scan *s, struct layer_light *light) {
+    const char *const at = s->at, *key;
+    if (*s->at != '"' || !read_text(s, &key) || !take(s, ":")) return false;
+    if (strcmp(key, "at") == 0) return read_vec3(s, &light->at);
+    if (strcmp(key, "color") == 0) return read_vec3(s, &light->color);
+    s->at = at;
+    return read_member(s, &light->entry);
+}
+
+static bool read_light(struct scan *s, struct layer_light *light) {
+    if (!take(s, "{")) return false;
+    do
+        if (!read_light_member(s, light)) return false;
+    while (take(s, ","));
+    return light->entry.kind && take(s, "}");
+}
+
+static bool read_lights(struct scan *s, struct layer_light **list, uint32_t *count) {
+    if (!take(s, "") || !take(s, "[")) return false;
+    *list = arena_array(s->arena, LAYER_LIGHTS_MOST, sizeof **list);
+    if (take(s, "]")) return !*s->at;
+    do
+        if (*count == LAYER_LIGHTS_MOST || !read_light(s, &(*list)[(*count)++])) return false;
+    while (take(s, ","));
+    return take(s, "]") && !*s->at;
+}
+
+bool layer_lights_read(const char *text, struct arena *arena, struct layer_conditions *conditions) {
+    struct scan s = {.at = text, .arena = arena};
+    struct layer_light *list = NULL;
+    uint32_t count = 0;
+    const bool good = read_lights(&s, &list, &count);
+    conditions->lights = good ? list : NULL;
+    conditions->light_count = good ? count : 0;
+    return good;
+}
+
+static bool read_setting(struct scan *s, struct layer_setting *setting) {
+    return *s->at == '"' && read_text(s, &setting->name) && take(s, ":") && read_text(s, &setting->value) &&
+           setting->value;
+}
+
+static bool read_settings(struct scan *s, struct layer_setting *list, uint32_t *count) {
+    if (!take(s, "") || !take(s, "{")) return false;
+    do
+        if (*count == LAYER_SETTINGS_MOST || !read_setting(s, &list[(*count)++])) return false;
+    while (take(s, ","));
+    return take(s, "}") && !*s->at;
+}
+
+bool layer_settings_read(const char *text, struct arena *arena, struct layer_conditions *conditions) {
+    struct scan s = {.at = text, .arena = arena};
+    struct layer_setting *list = arena_array(arena, LAYER_SETTINGS_MOST, sizeof *list);
+    uint32_t count = 0;
+    const bool good = read_settings(&s, list, &count);
+    conditions->settings = good ? list : NULL;
+    conditions->setting_count = good ? count : 0;
+    return good;
 }

@@ -1,4 +1,4 @@
-/* The entries of a layer as JSON, and its camera, and back:
+/* The entries of a layer as JSON, its camera, lights and settings, and back:
  *
  *     [
  *       {"id": 3, "name": "lid", "kind": "sphere", "file": "scene.yaml", "line": 41, "column": 5},
@@ -9,11 +9,20 @@
  *     {
  *       "projection": "perspective",
  *       "eye": [0, 3, 8], "forward": [0, -0.29, -0.96], "right": [0.55, 0, 0], "up": [0, 0.4, -0.12],
- *       "given": "b2c3...", "others": "08f1...",
+ *       "given": "b2c3...", "others": "08f1...", "objects": "77ab...",
  *       "file": "scene.yaml", "line": 3, "column": 9
  *     }
  *
- * What there is not is null, or 0 of line and column. Numbers of a camera are written so that they come back exactly. */
+ *
+ *     [
+ *       {"kind": "point light", "at": [2, 4, 5], "color": [1, 1, 1], "file": "scene.yaml", "line": 7, "column": 5},
+ *       ...
+ *     ]
+ *
+ *
+ *     {"samples": "4", "bits": "8", ...}
+ *
+ * What there is not is null, or 0 of line and column. Numbers of a camera or a light are written so that they come back exactly. */
 #ifndef MONGE_IMAGE_LAYER_TABLE_H
 #define MONGE_IMAGE_LAYER_TABLE_H
 
@@ -30,5 +39,12 @@ bool layer_table_read(const char *text, struct arena *arena, struct layer_entrie
  * known. */
 char *layer_camera_text(const struct layer_camera *camera);
 bool layer_camera_read(const char *text, struct arena *arena, struct layer_camera *camera);
+
+/* The same for lights and settings that are known. False where the text is anything else, or they are more than the
+ * most that there may be: then they are not known. */
+char *layer_lights_text(const struct layer_conditions *conditions);
+bool layer_lights_read(const char *text, struct arena *arena, struct layer_conditions *conditions);
+char *layer_settings_text(const struct layer_conditions *conditions);
+bool layer_settings_read(const char *text, struct arena *arena, struct layer_conditions *conditions);
 
 #endif

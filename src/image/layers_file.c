@@ -98,28 +98,55 @@ static void fill_numbers(const struct monge_layers *layers, enum monge_layer lay
             samples->values[samples->channels * i + c] = (uint16_t)(number_at(layers, layer, i) >> (16 * c));
 }
 
+/* What the file of the objects tells of the whole picture; NULL: not known, or no memory. */
+struct whole_texts {
+    char *camera, *lights, *settings;
+};
+
+/* False: no memory. */
+static bool make_texts(const struct monge_layers *layers, struct whole_texts *texts) {
+    const struct layer_conditions *c = &layers->conditions;
+    const bool has_camera = layers->camera.entry.kind;
+    texts->camera = has_camera ? layer_camera_text(&layers->camera) : NULL;
+    texts->lights = c->lights ? layer_lights_text(c) : NULL;
+    texts->settings = c->settings ? layer_settings_text(c) : NULL;
+    return (texts->camera || !has_camera) && (texts->lights || !c->lights) &&
+           (texts->settings || !c->settings);
+}
+
+static void add_texts(const struct whole_texts *texts, struct samples *samples) {
+    samples_add_text(samples, "monge:camera", texts->camera);
+    samples_add_text(samples, "monge:lights", texts->lights);
+    samples_add_text(samples, "monge:settings", texts->settings);
+}
+
+static void free_texts(struct whole_texts *texts) {
+    free(texts->settings);
+    free(texts->lights);
+    free(texts->camera);
+}
+
 static bool write_numbers(const struct monge_layers *layers, enum monge_layer layer, const char *path,
                           char *message, size_t size) {
     const bool has_table = layer != MONGE_LAYER_SHADOW, is_object = layer == MONGE_LAYER_OBJECT;
-    const bool has_camera = is_object && layers->camera.entry.kind;
+    struct whole_texts texts = {.camera = NULL};
     char *table = has_table ? layer_table_text(&layers->entries[layer]) : NULL;
-    char *camera = has_camera ? layer_camera_text(&layers->camera) : NULL;
     char depth[HASH_TEXT_SIZE];
     const bool has_depth = is_object && monge_layer_hash(layers, MONGE_LAYER_DEPTH, depth);
     struct samples samples = {.channels = bits_of(layers, layer) > 16 ? 3 : 1};
     samples.values = malloc(layers_pixels(layers) * samples.channels * sizeof *samples.values);
-    bool good = samples.values && (table || !has_table) && (camera || !has_camera);
+    bool good = samples.values && (table || !has_table) && (!is_object || make_texts(layers, &texts));
     if (good) {
         fill_numbers(layers, layer, &samples);
         samples_add_text(&samples, "monge:table", table);
-        samples_add_text(&samples, "monge:camera", camera);
+        add_texts(&texts, &samples);
         samples_add_text(&samples, "monge:depth", has_depth ? depth : NULL);
         good = write_samples(layers, path, &samples, message, size);
     } else {
         snprintf(message, size, "cannot write %s: out of memory", path);
     }
     free(samples.values);
-    free(camera);
+    free_texts(&texts);
     free(table);
     return good;
 }
@@ -185,14 +212,6 @@ static bool read_table(struct monge_layers *layers, enum monge_layer layer, cons
     return good;
 }
 
-/* One that cannot be read is not known, as in files of older programs. */
-static void read_camera(struct monge_layers *layers, const char *text) {
-    jmp_buf full;
-    layers->arena.on_full = &full;
-    if (setjmp(full) == 0) layer_camera_read(text, &layers->arena, &layers->camera);
-    layers->arena.on_full = NULL;
-}
-
 static unsigned sample_at(const struct monge_picture *picture, uint32_t y, size_t i) {
     const uint8_t *at = picture_row(picture, y) + 2 * i;
     return (unsigned)at[0] << 8 | at[1];
@@ -223,6 +242,21 @@ static const char *text_of(const struct monge_picture *picture, const char *key)
     return NULL;
 }
 
+/* What the file of the objects tells of the whole picture. What cannot be read is not known, as in files of older
+ * programs. */
+static void read_whole(struct monge_layers *layers, const struct monge_picture *picture) {
+    const char *camera = text_of(picture, "monge:camera"), *lights = text_of(picture, "monge:lights"),
+               *settings = text_of(picture, "monge:settings");
+    jmp_buf full;
+    layers->arena.on_full = &full;
+    if (setjmp(full) == 0) {
+        if (camera) layer_camera_read(camera, &layers->arena, &layers->camera);
+        if (lights) layer_lights_read(lights, &layers->arena, &layers->conditions);
+        if (settings) layer_settings_read(settings, &layers->arena, &layers->conditions);
+    }
+    layers->arena.on_full = NULL;
+}
+
 static bool take_picture(struct reading *reading, enum monge_layer layer, const char *path,
                          const struct monge_picture *picture) {
     const char *table = text_of(picture, "monge:table");
@@ -244,8 +278,7 @@ static bool take_picture(struct reading *reading, enum monge_layer layer, const 
         layers->light_count = 16 * picture->channels;
         return true;
     }
-    const char *camera = layer == MONGE_LAYER_OBJECT ? text_of(picture, "monge:camera") : NULL;
-    if (camera) read_camera(layers, camera);
+    if (layer == MONGE_LAYER_OBJECT) read_whole(layers, picture);
     return (table && read_table(layers, layer, table)) ||
            fail(reading, path, "it has no table of what its numbers stand for");
 }

@@ -6,7 +6,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-enum { SAMPLES_TEXTS = 6 };
+enum { SAMPLES_TEXTS = 8 };
 
 struct samples {
     uint32_t width, height;

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "render/conditions.h"
 #include "render/lights.h"
 #include "render/tiles.h"
 
@@ -212,11 +213,14 @@ static struct monge_entry object_entry(const struct scene *scene, struct arena *
 
 static struct monge_entry material_entry(const struct scene *scene, struct arena *arena, uint32_t index) {
     const struct material_info *m = &scene->material_info[index];
-    struct monge_entry entry = {.name = keep(arena, m->name), .kind = "material"};
-    if (!m->span.source) return entry;
-    entry.file = keep(arena, m->span.source->name);
-    entry.line = m->span.line + 1;
-    entry.column = m->span.column + 1;
+    struct monge_entry entry = conditions_entry(&m->span, "material", arena);
+    struct hash hash;
+    char text[HASH_TEXT_SIZE];
+    hash_begin(&hash);
+    material_hash(&scene->materials[index], &hash);
+    hash_text(&hash, text);
+    entry.name = keep(arena, m->name);
+    entry.hash = keep(arena, text);
     return entry;
 }
 
@@ -246,15 +250,6 @@ static void list_objects(const struct surveying *sv, struct arena *scratch) {
     list_entries(sv->layers, MONGE_LAYER_OBJECT, sv->tracer.scene, index_of, scratch);
 }
 
-static struct monge_entry camera_entry(const struct scene *scene, struct arena *arena) {
-    const struct span *place = &scene->camera_place;
-    if (!place->source) return (struct monge_entry){.kind = "camera"};
-    return (struct monge_entry){.kind = "camera",
-                                .file = keep(arena, place->source->name),
-                                .line = place->line + 1,
-                                .column = place->column + 1};
-}
-
 /* ---- All of it ---- */
 
 static bool survey(struct surveying *sv, const struct monge_job *job, struct diagnostics *diag,
@@ -263,7 +258,8 @@ static bool survey(struct surveying *sv, const struct monge_job *job, struct dia
     const struct scene *scene = sv->tracer.scene;
     sv->view = camera_view(scene, sv->tracer.accel, layers->width, layers->height);
     layers->camera.view = sv->view;
-    layers->camera.entry = camera_entry(scene, &layers->arena);
+    layers->camera.entry = conditions_entry(&scene->camera_place, "camera", &layers->arena);
+    layers->conditions = conditions_of(scene, &sv->tracer.settings, &layers->arena);
     lights_set(&sv->tracer, scratch, &sv->view);
     layers->light_count = sv->tracer.light_count;
     sv->object_ids = object_ids(scene, scratch, &layers->entries[MONGE_LAYER_OBJECT].highest);

@@ -19,10 +19,34 @@ struct layer_entries {
 
 /* Where a picture is seen from, with hashes in text of what made it. */
 struct layer_camera {
-    struct monge_entry entry;    /* kind NULL: not known; file NULL: the scene gives none */
-    struct view view;            /* its distance is not kept in files */
-    char given[HASH_TEXT_SIZE];  /* what the scene says of the camera */
-    char others[HASH_TEXT_SIZE]; /* the rest of the scene, and the settings */
+    struct monge_entry entry;     /* kind NULL: not known; file NULL: the scene gives none */
+    struct view view;             /* its distance is not kept in files */
+    char given[HASH_TEXT_SIZE];   /* what the scene says of the camera */
+    char others[HASH_TEXT_SIZE];  /* the rest of the scene, and the settings */
+    char objects[HASH_TEXT_SIZE]; /* of these the shapes with their materials; "": not known */
+};
+
+/* A light; the default ones are one, of no place and no colour, as they follow the camera. */
+struct layer_light {
+    struct monge_entry
+        entry;      /* kind "point light", "ambient light" or "default lights"; file NULL: the latter */
+    vec3 at, color; /* as the scene has them; at: 0 of an ambient one */
+};
+
+/* What the scene or the command line can say of the image or the rendering, but for the size: by the key's name. */
+struct layer_setting {
+    const char *name, *value;
+};
+
+enum { LAYER_LIGHTS_MOST = 500, LAYER_SETTINGS_MOST = 64 };
+
+/* What all objects of a picture are rendered under, beside the camera; in the layers' arena. */
+struct layer_conditions {
+    struct layer_light
+        *lights; /* in the order of the scene; NULL: not known, or more than LAYER_LIGHTS_MOST */
+    uint32_t light_count;
+    struct layer_setting *settings; /* NULL: not known */
+    uint32_t setting_count;
 };
 
 struct monge_layers {
@@ -37,6 +61,7 @@ struct monge_layers {
     uint32_t light_count;       /* point lights of the picture */
     char scene[HASH_TEXT_SIZE]; /* the fingerprint of its picture, in text; "": not known */
     struct layer_camera camera;
+    struct layer_conditions conditions;
     struct arena arena;
 };
 

@@ -55,11 +55,14 @@ void places_keep(struct builder *b) {
     struct scene *scene = b->scene;
     uint32_t count = 0;
     struct span **spans =
-        arena_array(b->arena, scene->light_count + 2 * scene->material_count + 3, sizeof *spans);
+        arena_array(b->arena, 2 * scene->light_count + 2 * scene->material_count + 3, sizeof *spans);
     spans[count++] = &scene->camera_place;
     spans[count++] = &scene->camera_span;
     spans[count++] = &scene->eye_span;
-    for (uint32_t i = 0; i < scene->light_count; i++) spans[count++] = &scene->light_spans[i];
+    for (uint32_t i = 0; i < scene->light_count; i++) {
+        spans[count++] = &scene->light_places[i];
+        spans[count++] = &scene->light_spans[i];
+    }
     for (uint32_t i = 0; i < scene->material_count; i++) {
         spans[count++] = &scene->material_info[i].span;
         spans[count++] = &scene->material_info[i].held;

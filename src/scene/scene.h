@@ -65,10 +65,11 @@ struct scene {
     struct origins origins;              /* of primitives, and the files of all places below */
     struct material_info *material_info; /* of each material */
     struct span camera_place;            /* of all of the camera; source NULL: the file has none */
-    struct span camera_span;  /* of what says where it looks; else of the camera, or of the scene */
-    struct span eye_span;     /* of the camera's eye where it has one */
-    struct span *light_spans; /* of each light's place or colour */
-    const char **templates;   /* names, by number; NULL where not used */
+    struct span camera_span;   /* of what says where it looks; else of the camera, or of the scene */
+    struct span eye_span;      /* of the camera's eye where it has one */
+    struct span *light_places; /* of all of each light */
+    struct span *light_spans;  /* of each light's place or colour */
+    const char **templates;    /* names, by number; NULL where not used */
     uint32_t template_count;
 };
 

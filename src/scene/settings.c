@@ -163,10 +163,12 @@ void lights_build(struct builder *b, const struct object_value *file) {
     const struct object_list list = object_list(file, KEY_FILE_LIGHTS);
     scene->default_lights = !object_has(file, KEY_FILE_LIGHTS);
     scene->lights = arena_array(b->arena, list.count ? list.count : 1, sizeof *scene->lights);
+    scene->light_places = arena_array(b->arena, list.count ? list.count : 1, sizeof *scene->light_places);
     scene->light_spans = arena_array(b->arena, list.count ? list.count : 1, sizeof *scene->light_spans);
     scene->light_count = list.count;
     for (uint32_t i = 0; i < list.count; i++) {
         scene->lights[i] = light_build(list.items[i]);
+        scene->light_places[i] = list.items[i]->span;
         scene->light_spans[i] = light_span(list.items[i]);
     }
 }

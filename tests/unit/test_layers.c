@@ -386,6 +386,8 @@ static void assert_same_entries(const struct monge_layers *a, const struct monge
         if (p->list[i].name) assert_string_equal(p->list[i].name, q->list[i].name);
         assert_int_equal(p->list[i].file != NULL, q->list[i].file != NULL);
         if (p->list[i].file) assert_string_equal(p->list[i].file, q->list[i].file);
+        assert_int_equal(p->list[i].hash != NULL, layer == MONGE_LAYER_MATERIAL);
+        if (p->list[i].hash) assert_string_equal(p->list[i].hash, q->list[i].hash);
     }
 }
 
@@ -394,6 +396,7 @@ static void assert_same_camera(const struct layer_camera *a, const struct layer_
     assert_memory_equal(&a->view.eye, &b->view.eye, 4 * sizeof a->view.eye); /* forward, right and up too */
     assert_string_equal(a->given, b->given);
     assert_string_equal(a->others, b->others);
+    assert_string_equal(a->objects, b->objects);
     assert_string_equal(a->entry.kind, b->entry.kind);
     assert_string_equal(a->entry.file ? a->entry.file : "none", b->entry.file ? b->entry.file : "none");
     assert_int_equal(a->entry.line, b->entry.line);
@@ -436,8 +439,8 @@ static void test_large_numbers(void **state) {
     (void)state;
     bool failed;
     struct monge_layers *layers = layers_new(2, 1, (struct monge_region){0, 0, 2, 1}, MONGE_LAYERS_ALL);
-    static struct monge_entry entries[] = {{1, "a\n\"\\\xc3\xa9", "sphere", "f", 1, 2},
-                                           {0x12345678, NULL, "box", NULL, 0, 0}};
+    static struct monge_entry entries[] = {{1, "a\n\"\\\xc3\xa9", "sphere", "f", 1, 2, NULL},
+                                           {0x12345678, NULL, "box", NULL, 0, 0, NULL}};
     layers->ids[0][0] = 1;
     layers->ids[0][1] = 0x12345678;
     layers->entries[0] = (struct layer_entries){entries, 2, 0x12345678};

@@ -59,8 +59,8 @@ static bool same_text(const struct monge_picture *a, const struct monge_picture 
 
 /* All that a reader of passes goes by. */
 static bool says_same(const struct monge_picture *a, const struct monge_picture *b) {
-    static const char *const keys[] = {"monge:scene", "monge:region", "monge:table", "monge:camera",
-                                       "monge:depth"};
+    static const char *const keys[] = {"monge:scene",  "monge:region",   "monge:table", "monge:camera",
+                                       "monge:lights", "monge:settings", "monge:depth"};
     for (size_t i = 0; i < sizeof keys / sizeof *keys; i++)
         if (!same_text(a, b, keys[i])) return false;
     return true;
