@@ -607,14 +607,15 @@ struct monge_change {
 /* Tells what changed from the older picture to the newer, of which the pixels differ that monge_compare counts as
  * `beyond`. Both sets of layers have the layer object and are of the rendering of their pictures; of the other layers
  * those count that both have. Objects are the same by their names; those without one, or with one name for several, by kind
- * and by what is seen at the same place, then by their order. The first `room` changes, those of most pixels first;
- * *count is how many there are. They point into the layers. Of pictures with other bits or in another colour space, which
- * differ everywhere by that, geometry and materials are told alone, behind the settings.
+ * and by what is seen at the same place, then by their order. The first `room` changes: shadows and shading behind what may
+ * be their cause, and of each those of most pixels first; *count is how many there are. They point into the layers. Of
+ * pictures with other bits or in another colour space, which differ everywhere by that, geometry and materials are told
+ * alone, behind the settings.
  *
  * Where lights, the background or settings have changed, these are the first changes, and their pixels those of all
- * objects that look different by them alone: of which only the number is told, by one change behind. Lights have no
- * names: they are the same by place and colour, by one of these, then by their order; those that a loop makes and
- * that changed alike are one.
+ * objects that look different by them alone: of which, where they are more than four, only the number is told, by one change
+ * behind. Lights have no names: they are the same by place and colour, by one of these, then by their order; those that a
+ * loop makes and that changed alike are one.
  *
  * With another camera the passes do not tell which objects moved: then the camera is the first change, lights and
  * settings are next, and where more of the scene has changed, that is the last. Layers of files that do not tell

@@ -12,12 +12,15 @@
 
 enum { OLDER, NEWER, SIDES };
 
+enum { FEW_OBJECTS = 4 /* that follow from what else has changed: more are summed up */ };
+
 #define NOBODY UINT32_MAX /* a pixel without a cause; an entry without a partner */
 
 /* An object in both pictures, or in one of them. */
 struct track {
     const struct monge_entry *entry[SIDES]; /* NULL: nothing of it is seen there */
     bool has_inside;                        /* a pixel of it is not at an edge, in either picture */
+    bool other_material;                    /* somewhere; or whether it is the same is not known */
     uint64_t firm[MONGE_CHANGES];           /* pixels that accuse it by themselves */
     uint64_t pixels[MONGE_CHANGES];
     struct monge_region bounds[MONGE_CHANGES];
@@ -313,11 +316,10 @@ static uint32_t one_in_front(const struct inquiry *c, size_t i) {
 static enum monge_change_kind kind_of(const struct inquiry *c, size_t i) {
     const enum material_change materials = material_change(c->layers[OLDER], c->layers[NEWER], i);
     if (materials == OTHER_MATERIAL) return MONGE_CHANGE_MATERIAL;
+    if (materials != SAME_MATERIAL) c->tracks[c->object[NEWER][i]].other_material = true;
     const bool shadow =
         both(c, MONGE_LAYER_SHADOW) && c->layers[OLDER]->lights[i] != c->layers[NEWER]->lights[i];
-    const enum monge_change_kind kind = shadow ? MONGE_CHANGE_SHADOW : MONGE_CHANGE_SHADING;
-    const bool follows = materials == SAME_MATERIAL && c->conditions.follow >> kind & 1;
-    return follows ? MONGE_CHANGE_FOLLOWING : kind;
+    return shadow ? MONGE_CHANGE_SHADOW : MONGE_CHANGE_SHADING;
 }
 
 static bool looks_different(const struct inquiry *c, size_t i) {
@@ -416,7 +418,6 @@ static void sum_up(struct track *track) {
     if (!track->pixels[MONGE_CHANGE_GEOMETRY]) return;
     move_pixels(track, MONGE_CHANGE_SHADOW, MONGE_CHANGE_GEOMETRY);
     move_pixels(track, MONGE_CHANGE_SHADING, MONGE_CHANGE_GEOMETRY);
-    move_pixels(track, MONGE_CHANGE_FOLLOWING, MONGE_CHANGE_GEOMETRY);
     const enum monge_change_kind kind = !track->entry[OLDER]   ? MONGE_CHANGE_APPEARED
                                         : !track->entry[NEWER] ? MONGE_CHANGE_DISAPPEARED
                                                                : MONGE_CHANGE_GEOMETRY;
@@ -437,8 +438,14 @@ static void count_pixels(struct inquiry *c) {
     for (uint32_t t = 0; t < c->track_count; t++) sum_up(&c->tracks[t]);
 }
 
+/* Whether it can come from another object: by its shadow, or in a mirror. */
+static bool can_follow(enum monge_change_kind kind) {
+    return kind == MONGE_CHANGE_SHADOW || kind == MONGE_CHANGE_SHADING;
+}
+
 static int compare_changes(const void *a, const void *b) {
     const struct monge_change *p = a, *q = b;
+    if (can_follow(p->kind) != can_follow(q->kind)) return can_follow(p->kind) ? 1 : -1;
     if (p->pixels != q->pixels) return p->pixels > q->pixels ? -1 : 1;
     const uint32_t m = p->object ? p->object->id : 0, n = q->object ? q->object->id : 0;
     if (m != n) return m < n ? -1 : 1;
@@ -456,40 +463,47 @@ static void put(struct listing *l, struct monge_change change) {
     l->count++;
 }
 
-/* What looks different by lights and settings alone; nothing where there are no tracks. */
+/* What looks different by lights and settings alone. */
+static bool follows(const struct inquiry *c, const struct track *track, enum monge_change_kind kind) {
+    return track->pixels[kind] && !track->other_material && c->conditions.follow >> kind & 1;
+}
+
 static struct monge_change sum_following(const struct inquiry *c) {
     struct monge_change sum = {.kind = MONGE_CHANGE_FOLLOWING};
     for (uint32_t t = 0; t < c->track_count; t++) {
-        const uint64_t pixels = c->tracks[t].pixels[MONGE_CHANGE_FOLLOWING];
-        const struct monge_region r = c->tracks[t].bounds[MONGE_CHANGE_FOLLOWING];
-        if (pixels == 0) continue;
-        sum.pixels += pixels;
-        sum.objects += t > 0;
-        extend(&sum.bounds, r.x, r.y);
-        extend(&sum.bounds, r.x + r.width - 1, r.y + r.height - 1);
+        const struct track *track = &c->tracks[t];
+        const uint64_t before = sum.pixels;
+        for (enum monge_change_kind kind = 0; kind < MONGE_CHANGES; kind++) {
+            const struct monge_region r = track->bounds[kind];
+            if (!follows(c, track, kind)) continue;
+            sum.pixels += track->pixels[kind];
+            extend(&sum.bounds, r.x, r.y);
+            extend(&sum.bounds, r.x + r.width - 1, r.y + r.height - 1);
+        }
+        sum.objects += t > 0 && sum.pixels > before;
     }
     return sum;
 }
 
-/* Lights and settings, and what these have made different together. */
-static void list_conditions(const struct inquiry *c, struct listing *l) {
-    const struct monge_change following = sum_following(c);
+/* Lights and settings, with what these have made different together. Of the background there is no more to tell. */
+static void list_conditions(const struct inquiry *c, const struct monge_change *following,
+                            struct listing *l) {
     for (uint32_t i = 0; i < c->conditions.count; i++) {
         struct monge_change change = c->conditions.list[i];
-        change.pixels = following.pixels;
-        change.bounds = following.bounds;
+        change.pixels = following->pixels;
+        change.bounds = following->bounds;
         put(l, change);
     }
-    if (following.objects > 0) put(l, following);
 }
 
-static void list_objects(const struct inquiry *c, struct listing *l) {
+/* But for those that follow where these are summed up, and the background where it does. */
+static void list_objects(const struct inquiry *c, bool summed, struct listing *l) {
     struct monge_change *all = arena_array(c->arena, (size_t)c->track_count * MONGE_CHANGES, sizeof *all);
     size_t count = 0;
     for (uint32_t t = 0; t < c->track_count; t++) {
         const struct track *track = &c->tracks[t];
         for (enum monge_change_kind kind = 0; kind < MONGE_CHANGES; kind++)
-            if (track->pixels[kind] && kind != MONGE_CHANGE_FOLLOWING)
+            if (track->pixels[kind] && !((summed || t == 0) && follows(c, track, kind)))
                 all[count++] = (struct monge_change){.kind = kind,
                                                      .object = track->entry[NEWER] ? track->entry[NEWER]
                                                                                    : track->entry[OLDER],
@@ -498,6 +512,14 @@ static void list_objects(const struct inquiry *c, struct listing *l) {
     }
     qsort(all, count, sizeof *all, compare_changes);
     for (size_t i = 0; i < count; i++) put(l, all[i]);
+}
+
+static void list_all(const struct inquiry *c, struct listing *l) {
+    const struct monge_change following = sum_following(c);
+    const bool summed = following.objects > FEW_OBJECTS;
+    list_conditions(c, &following, l);
+    if (summed) put(l, following);
+    list_objects(c, summed, l);
 }
 
 /* ---- The camera ---- */
@@ -512,7 +534,7 @@ static void list_camera(const struct inquiry *c, enum monge_change_kind kind, st
             extend(&camera.bounds, x, y);
         }
     put(l, camera);
-    list_conditions(c, l);
+    list_conditions(c, &(struct monge_change){.pixels = 0}, l);
     if (camera_others_changed(c->layers[OLDER], c->layers[NEWER])) put(l, others);
 }
 
@@ -538,8 +560,7 @@ static bool compare(struct inquiry *c, struct listing *l) {
     find_causes(c);
     settle_edges(c);
     count_pixels(c);
-    list_conditions(c, l);
-    list_objects(c, l);
+    list_all(c, l);
     return true;
 }
 

@@ -79,7 +79,7 @@ await settled(tab, 'moved side colour');
 
 await tab.keyboard.press('j');
 check('j goes on', await shown(tab, 'painted'));
-check('its change is the material', /material changed, geometry equal/.test(await body(tab)), await body(tab));
+check('its change is the material', /shading changed, geometry equal: another material/.test(await body(tab)), await body(tab));
 await tab.keyboard.press('j');
 check('a broken scene', await shown(tab, 'bad') && /unknown-key/.test(await body(tab)));
 await tab.keyboard.press('k');

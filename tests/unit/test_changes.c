@@ -47,7 +47,7 @@ static struct row rows[] = {
     {"another colour", HEAD SCENE FLOOR BALL BOX,
      HEAD SCENE FLOOR
      "  - {name: ball, sphere: {center: [-1.5, 1, 0]}, material: {ambient: red, diffuse: lime}}\n" BOX,
-     "object \"ball\" (scene.yaml:5): material changed, geometry equal\n", 0},
+     "object \"ball\" (scene.yaml:5): shading changed, geometry equal: another material\n", 0},
     {"a named material for another",
      "materials: {a: {diffuse: red}, b: {diffuse: lime}}\n" HEAD SCENE FLOOR
      "  - {name: ball, sphere: {center: [0, 1, 0]}, material: a}\n  - {sphere: "
@@ -55,7 +55,7 @@ static struct row rows[] = {
      "materials: {a: {diffuse: red}, b: {diffuse: lime}}\n" HEAD SCENE FLOOR
      "  - {name: ball, sphere: {center: [0, 1, 0]}, material: b}\n  - {sphere: {center: [2, 1, 0], radius: "
      "0.2}, material: b}\n",
-     "object \"ball\" (scene.yaml:6): material changed, geometry equal\n", 0},
+     "object \"ball\" (scene.yaml:6): shading changed, geometry equal: another material\n", 0},
     {"one has come", HEAD SCENE FLOOR BALL, HEAD SCENE FLOOR BALL BOX,
      "box (scene.yaml:6): appeared\n"
      "object \"floor\" (scene.yaml:4): shadow changed\n",
@@ -68,7 +68,9 @@ static struct row rows[] = {
      "camera: {eye: [0, 3, 8], look_at: [0, 0.7, 0]}\n"
      "lights: [{point: {at: [4, 8, 6]}}, {ambient: {color: [0.2, 0.2, 0.2]}}]\n" SCENE FLOOR BALL,
      "point light (scene.yaml:2): moved\n"
-     "shading of 2 objects changed by that, geometry and materials equal\n",
+     "object \"floor\" (scene.yaml:4): shading changed, geometry equal\n"
+     "object \"ball\" (scene.yaml:5): shading changed, geometry equal\n"
+     "object \"floor\" (scene.yaml:4): shadow changed\nobject \"ball\" (scene.yaml:5): shadow changed\n",
      0},
     {"lines have shifted, one of three without names has moved",
      HEAD SCENE
@@ -88,7 +90,7 @@ static struct row rows[] = {
     {"another name", HEAD SCENE FLOOR BALL,
      HEAD SCENE FLOOR
      "  - {name: globe, sphere: {center: [-1.5, 1, 0]}, material: {ambient: red, diffuse: lime}}\n",
-     "object \"globe\" (scene.yaml:5): material changed, geometry equal\n", 0},
+     "object \"globe\" (scene.yaml:5): shading changed, geometry equal: another material\n", 0},
     {"what a mirror shows",
      HEAD SCENE "  - {name: mirror, sphere: {center: [0, 1, 0]}, material: {diffuse: black, reflection: 1}}\n"
                 "  - {name: far, sphere: {center: [0, 1, 12]}, material: {ambient: red}}\n",
@@ -110,7 +112,7 @@ static struct row rows[] = {
      "  - {use: stack, transform: [{translate: [-2.5, 0, 0]}]}\n"
      "  - {name: right, use: stack, material: {diffuse: red}, transform: [{translate: [1, 0, 0]}]}\n",
      "use of stack (scene.yaml:5): geometry moved\n"
-     "object \"right\" (scene.yaml:6): material changed, geometry equal\n",
+     "object \"right\" (scene.yaml:6): shading changed, geometry equal: another material\n",
      0},
     {"two of one name, the second has gone",
      HEAD SCENE "  - {name: ball, sphere: {center: [-2, 1, 0], radius: 0.7}}\n"
@@ -131,8 +133,8 @@ static struct row rows[] = {
      HEAD SCENE "  - {name: floor, plane: {normal: [0, 1, 0]}, material: {ambient: white, diffuse: '#888'}}\n"
                 "  - {name: wire, cylinder: {from: [0, 0, 0], to: [0, 2, 0], radius: 0.05}, material: "
                 "{ambient: lime}}\n",
-     "object \"floor\" (scene.yaml:4): material changed, geometry equal\n"
-     "object \"wire\" (scene.yaml:5): material changed, geometry equal\n",
+     "object \"floor\" (scene.yaml:4): shading changed, geometry equal: another material\n"
+     "object \"wire\" (scene.yaml:5): shading changed, geometry equal: another material\n",
      0},
     {"what has moved in its own plane, under another shadow",
      HEAD SCENE "  - {name: tile, box: {min: [-2, -1, -2], max: [2, 0, 2]}, material: {reflection: 0.5}}\n"
@@ -222,8 +224,8 @@ static void test_unknown_camera(void **state) {
         *camera = (struct layer_camera){.entry = {.kind = NULL}};
         tell(a.layers, b.layers, differs, got, sizeof got);
         assert_string_equal(got, "object \"floor\" (scene.yaml:4): geometry moved\n"
-                                 "background: colour changed\n"
-                                 "object \"ball\" (scene.yaml:5): geometry moved\n");
+                                 "object \"ball\" (scene.yaml:5): geometry moved\n"
+                                 "background: colour changed\n");
         *camera = kept;
     }
     forget(&a);
