@@ -166,7 +166,10 @@ exits 0 diff grey.png dot.png --ignore white.png; out_has 'all of 1196 pixels'
 exits 0 diff grey.png dot.png --mask white.png; out_has 'all of 1196 pixels'
 exits 0 diff grey.png dot.png --mask white.png --ignore 0,0,1,1; out_has 'all of 1195 pixels'
 exits 2 diff grey.png dot.png --mask small.png; err_has 'small.png: it is 20 x 30 pixels'; no_out
-exits 2 diff grey.png dot.png --mask white.png --ignore white.png; err_has 'there can be only one mask'
+for masks in '--mask white.png --ignore white.png' '--mask white.png --mask white.png' '--ignore white.png --ignore white.png'; do
+    exits 2 diff grey.png dot.png $masks; err_has 'there can be only one mask'; no_out
+done
+cp white.png 0,0,1,1; exits 0 diff grey.png dot.png --mask 0,0,1,1; out_has 'all of 1196 pixels' # a file, whatever it is called
 
 # of nothing, nothing can be said
 nothing='error[nothing-compared]: nothing is left to compare in grey.png: all pixels are ignored'

@@ -110,7 +110,7 @@ const struct option_row OPTION_TABLE[OPTIONS] = {
     [OPTION_MAX_PIXELS] = {"max-pixels", 0, VALUE_AMOUNT, IN_DIFF, "N|P%", 0, 0,
                            "how many pixels may differ, by more than --max-delta where it is given"},
     [OPTION_IGNORE] = {"ignore", 0, VALUE_AREA, IN_DIFF, "X,Y,W,H|MASK", 1, INT32_MAX,
-                       "leave out these pixels, or those that a PNG is not black in; repeatable"},
+                       "leave out these pixels, repeatable; or those that a PNG is not black in"},
     [OPTION_MASK] = {"mask", 0, VALUE_FILE, IN_DIFF, "MASK", 0, 0, "the same as --ignore MASK"},
     [OPTION_PPD] = {"ppd", 0, VALUE_FRACTION, IN_DIFF, "F", 1, 1000,
                     "pixels per degree of sight, for flip; 67 by default"},

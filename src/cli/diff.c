@@ -12,13 +12,18 @@
 
 static bool is_stream(const char *path) { return strcmp(path, "-") == 0; }
 
-/* The file of --mask, or the last one of --ignore. NULL: none. */
+/* Whether it is a file, not an area of that many numbers. */
+static bool is_mask(const struct option_pair *ignored, uint32_t number[4]) {
+    return ignored->option == OPTION_MASK || !options_area(ignored, number);
+}
+
+/* The last file of --mask and --ignore, and how many there are. NULL: none. */
 static const char *find_mask(const struct arguments *args, size_t *count) {
-    const char *mask = args->option[OPTION_MASK].text;
+    const char *mask = NULL;
     uint32_t number[4];
-    *count = mask != NULL;
+    *count = 0;
     for (size_t i = 0; i < args->pair_count; i++)
-        if (!options_area(&args->pairs[i], number)) {
+        if (is_mask(&args->pairs[i], number)) {
             mask = args->pairs[i].text;
             ++*count;
         }
@@ -31,7 +36,7 @@ static bool check_inputs(const struct arguments *args) {
     if (args->count != 2)
         say_usage(COMMAND_DIFF, "diff: expected two pictures, found %zu", args->count);
     else if (masks > 1)
-        say_usage(COMMAND_DIFF, "diff: there can be only one mask");
+        say_usage(COMMAND_DIFF, "there can be only one mask");
     else if (is_stream(args->operands[0]) + is_stream(args->operands[1]) + (mask && is_stream(mask)) > 1)
         say_usage(COMMAND_DIFF, "standard input can be only one picture");
     else
@@ -58,7 +63,7 @@ static bool diff_begin(struct diff *diff, const struct arguments *args, struct m
                                        .threads = args->option[OPTION_THREADS].number[0]};
     for (size_t i = 0; diff->ignore && i < args->pair_count; i++) {
         uint32_t n[4];
-        if (options_area(&args->pairs[i], n))
+        if (!is_mask(&args->pairs[i], n))
             diff->ignore[diff->how.ignore_count++] = (struct monge_region){n[0], n[1], n[2], n[3]};
     }
     return diff->ignore && (!mask || diff->mask);

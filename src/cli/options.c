@@ -158,7 +158,9 @@ static void describe_value(const struct option_row *row, char *text, size_t size
     case VALUE_WHOLE: snprintf(text, size, "a whole number from %u to %u", row->low, row->high); break;
     case VALUE_FRACTION: snprintf(text, size, "a number from %u to %u", row->low, row->high); break;
     case VALUE_SIZE: snprintf(text, size, "WxH like 640x480, each from %u to %u", row->low, row->high); break;
-    case VALUE_REGION: snprintf(text, size, "X,Y,W,H like 0,0,320,240, W and H from %u", row->low); break;
+    case VALUE_REGION:
+        snprintf(text, size, "X,Y,W,H like 0,0,320,240, X and Y from 0, W and H from %u", row->low);
+        break;
     case VALUE_CHOICE: *text = '\0', describe_words(row->value, " or ", text, size); break;
     case VALUE_CHOICES:
         snprintf(text, size, "some of ");
@@ -167,7 +169,8 @@ static void describe_value(const struct option_row *row, char *text, size_t size
         break;
     case VALUE_AMOUNT: snprintf(text, size, "a whole number, or 0 to 100 and %%"); break;
     case VALUE_AREA:
-        snprintf(text, size, "X,Y,W,H like 0,0,320,240, W and H from %u, or a PNG file", row->low);
+        snprintf(text, size, "X,Y,W,H like 0,0,320,240, X and Y from 0, W and H from %u, or a PNG file",
+                 row->low);
         break;
     case VALUE_FRAMES:
         snprintf(text, size, "N, A-B, A- or all, perhaps with :STEP, from %u", row->low);
@@ -209,7 +212,7 @@ static bool set_value(struct arguments *args, enum option_id option, const char 
     const struct option_row *row = &OPTION_TABLE[option];
     char expected[128];
     if (text && read_value(row, text, &args->option[option])) {
-        if (row->kind == VALUE_PAIR || row->kind == VALUE_AREA)
+        if (row->kind == VALUE_PAIR || row->kind == VALUE_AREA || option == OPTION_MASK)
             args->pairs[args->pair_count++] = (struct option_pair){option, text};
         return args->option[option].given = true;
     }

@@ -42,6 +42,9 @@ struct row {
 #define BOTH(other)                                                                                          \
     "object \"floor\" (scene.yaml:5): shading changed, geometry equal\n"                                     \
     "object \"" other "\" (scene.yaml:6): shading changed, geometry equal\n"
+#define GLOSS(name, x)                                                                                       \
+    "  - {name: " name ", sphere: {center: [" x ", 1, 0], radius: 0.4}, material: {reflection: 0.6}}\n"
+#define BALLS  GLOSS("a", "-2") GLOSS("b", "-1") GLOSS("c", "0") GLOSS("d", "1") GLOSS("e", "2")
 #define SUM(n) "shading of " n " objects changed by that, geometry and materials equal\n"
 #define OTHERS "other changes too, which cannot be told by object under another camera\n"
 
@@ -197,6 +200,17 @@ static struct row rows[] = {
     {"five are summed up", SCENE("", KEY, FLOOR THREE PEARL("d", "1", "red")),
      SCENE("", ELSEWHERE, FLOOR THREE PEARL("d", "1", "red")), "point light (scene.yaml:3): moved\n" SUM("5"),
      0},
+    {"but not where materials are not known", SCENE("", KEY, FLOOR THREE PEARL("d", "1", "red")),
+     SCENE("", WARM, FLOOR THREE PEARL("d", "1", "red")),
+     "point light (scene.yaml:3): colour or strength changed\n"
+     "object \"floor\" (scene.yaml:5): shading changed, geometry equal\n"
+     "object \"a\" (scene.yaml:6): shading changed, geometry equal\n"
+     "object \"d\" (scene.yaml:9): shading changed, geometry equal\n"
+     "object \"c\" (scene.yaml:8): shading changed, geometry equal\n"
+     "object \"b\" (scene.yaml:7): shading changed, geometry equal\n",
+     1 << MONGE_LAYER_MATERIAL},
+    {"the background is no object", SCENE("image: {background: black}", KEY, BALLS),
+     SCENE("image: {background: navy}", KEY, BALLS), "background: colour changed\n" SUM("5"), 0},
     {"but for one of another material, and one that has moved",
      SCENE("", KEY, FLOOR THREE PEARL("d", "1", "red") PEARL("e", "2", "red") PEARL("f", "3", "red")),
      SCENE("", WARM, FLOOR THREE PEARL("d", "1", "red") PEARL("e", "2", "lime") PEARL("f", "3.1", "red")),
