@@ -887,6 +887,12 @@ exits 1 test s --golden g -j 2 --progress json; out_has '5 goldens: 4 new, 1 bro
 ok 'all are done in the end' grep -q '^{"done": 5, "total": 5, "rendered": 4, "unchanged": 0, "failed": 1, "part": 1.0000, .*"seconds_left": 0.000, "running": \[\]}$' err
 ok 'a line for each' [ "$(grep -o '^{"done": [0-9]*' err | sort -u | grep -vc ' 0$')" -eq 5 ]; ok 'and nothing else' [ "$(grep -vc '^{"done": ' err)" -eq 0 ]
 exits 1 test s --golden g --progress json --json -; err_has 'broken   in/wrong'; err_lacks 'monge accept'
+mkdir many; for i in {1..300}; do cp s/in/wrong.yaml many/$i.yaml; done
+for i in 1 2 3 4 5; do # threads do not speak in between, whoever is first
+    exits 1 test many --golden g -j 4 --progress json --json -
+    ok 'lines are whole' [ "$(grep -cx 'broken   [0-9]*' err)" -eq 300 ]; ok 'so are objects' [ "$(grep -c '^{"done": .*}$' err)" -eq "$(grep -c '"done"' err)" ]
+done
+rm -r many monge-test
 exits 1 test s --golden g --progress always -q; exits 1 accept --golden g; err_has 'in/wrong is left as it is: it is broken'
 exits 1 test s --golden g --changed --progress json; ok 'what is not rendered' grep -q '"rendered": 0, "unchanged": 4, "failed": 1, "part": 1.0000' err
 exits 1 test s --golden g; no_err

@@ -367,10 +367,16 @@ void progress_done(struct progress_unit *unit, enum outcome outcome) {
     pthread_mutex_unlock(&p->lock);
 }
 
-void progress_hide(struct progress *progress) {
+void progress_pause(struct progress *progress) {
     pthread_mutex_lock(&progress->lock);
     if (progress->columns > 0) draw(progress, "", 0);
-    pthread_mutex_unlock(&progress->lock);
+}
+
+void progress_resume(struct progress *progress) { pthread_mutex_unlock(&progress->lock); }
+
+void progress_hide(struct progress *progress) {
+    progress_pause(progress);
+    progress_resume(progress);
 }
 
 static void end_ticking(struct progress *p) {

@@ -82,7 +82,12 @@ void progress_done(struct progress_unit *unit, enum outcome outcome); /* it is d
 /* Seconds until all is done. Negative: there is no ground for an estimate yet. */
 double progress_seconds_left(const struct progress *progress);
 
-/* Clears the line of the bar, so that something else may be printed. */
+/* Clears the line of the bar. */
 void progress_hide(struct progress *progress);
+
+/* The same, and nothing is shown until it goes on: so that something else may be printed in one piece. In between nothing else
+ * here may be called by the same thread. */
+void progress_pause(struct progress *progress);
+void progress_resume(struct progress *progress);
 
 #endif

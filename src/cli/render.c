@@ -217,9 +217,10 @@ static void tell(struct work *work, const struct unit *unit, const char *said) {
                        work->scene == unit->output->scene && strcmp(work->said, said) == 0;
     work->repeated += again;
     if (again) return;
-    if (*said) progress_hide(&work->progress);
+    progress_pause(&work->progress);
     tell_repeated(work);
     fputs(said, stderr);
+    progress_resume(&work->progress);
     free(work->said);
     work->said = say_text("%s", said);
     work->scene = unit->output->scene;

@@ -238,10 +238,11 @@ static bool is_held(const struct test *test, const struct golden_case *c) {
 static void end_scene(void *context, size_t index, const char *said) {
     struct test *test = context;
     const struct golden_scene *scene = &test->run.scenes[index];
-    progress_hide(&test->run.progress);
+    progress_pause(&test->run.progress);
     fputs(said, stderr);
     for (size_t i = 0; i < scene->count; i++)
         if (!is_held(test, &scene->cases[i])) golden_tell(&test->teller, &scene->cases[i]);
+    progress_resume(&test->run.progress);
 }
 
 /* Whether there are goldens of which the run may find out that they are orphans. */
