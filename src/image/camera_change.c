@@ -2,20 +2,18 @@
 
 #include <string.h>
 
-bool camera_same_vector(vec3 a, vec3 b) {
-    return vec3_length(vec3_sub(a, b)) <= 1e-9 * (vec3_length(a) + vec3_length(b));
-}
+#include "base/same.h"
 
 /* In pictures of one size `right` follows from the others. */
 static bool same_axes(const struct view *a, const struct view *b) {
-    return a->orthographic == b->orthographic && camera_same_vector(a->forward, b->forward) &&
-           camera_same_vector(a->up, b->up);
+    return a->orthographic == b->orthographic && same_vector(a->forward, b->forward) &&
+           same_vector(a->up, b->up);
 }
 
 bool camera_change(const struct layer_camera *older, const struct layer_camera *newer,
                    enum monge_change_kind *kind) {
     if (!older->entry.kind || !newer->entry.kind) return false;
-    const bool stays = camera_same_vector(older->view.eye, newer->view.eye);
+    const bool stays = same_vector(older->view.eye, newer->view.eye);
     *kind = strcmp(older->given, newer->given) == 0 ? MONGE_CHANGE_FRAMING
             : !stays                                ? MONGE_CHANGE_CAMERA
                                                     : MONGE_CHANGE_VIEW;

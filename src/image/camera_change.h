@@ -4,9 +4,6 @@
 
 #include "render/layers.h"
 
-/* But for what another program rounds in another way. */
-bool camera_same_vector(vec3 a, vec3 b);
-
 /* For pictures of one size. False: both cameras have the same rays, or one of them is not known. */
 bool camera_change(const struct layer_camera *older, const struct layer_camera *newer,
                    enum monge_change_kind *kind);

@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "image/camera_change.h"
+#include "base/same.h"
 
 #define NOBODY UINT32_MAX /* a light without a partner */
 
@@ -18,11 +18,11 @@ struct pairing {
 typedef bool alike(const struct layer_light *a, const struct layer_light *b);
 
 static bool same_place(const struct layer_light *a, const struct layer_light *b) {
-    return camera_same_vector(a->at, b->at);
+    return same_vector(a->at, b->at);
 }
 
 static bool same_color(const struct layer_light *a, const struct layer_light *b) {
-    return camera_same_vector(a->color, b->color);
+    return same_vector(a->color, b->color);
 }
 
 static bool same_light(const struct layer_light *a, const struct layer_light *b) {
@@ -51,12 +51,10 @@ static void pair_lights(struct pairing *p, struct arena *arena) {
 
 /* ---- Lights ---- */
 
-static bool same_texts(const char *a, const char *b) { return a && b ? strcmp(a, b) == 0 : a == b; }
-
 static bool same_line(const struct monge_change *a, const struct monge_change *b) {
     const struct monge_entry *p = a->object, *q = b->object;
     return a->kind == b->kind && p->line == q->line && p->column == q->column &&
-           same_texts(p->file, q->file) && strcmp(p->kind, q->kind) == 0;
+           same_text(p->file, q->file) && strcmp(p->kind, q->kind) == 0;
 }
 
 /* Lights that a loop makes come one after another, and are told once. */

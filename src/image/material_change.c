@@ -2,14 +2,14 @@
 
 #include <string.h>
 
+#include "base/same.h"
+
 static const struct monge_entry *material_at(const struct monge_layers *layers, size_t i) {
     static const struct monge_entry unknown = {.kind = "material"};
     const uint32_t *ids = layers->ids[MONGE_LAYER_MATERIAL];
     const struct monge_entry *entry = ids ? monge_layers_entry(layers, MONGE_LAYER_MATERIAL, ids[i]) : NULL;
     return entry ? entry : &unknown;
 }
-
-static bool same_text(const char *a, const char *b) { return a && b ? strcmp(a, b) == 0 : a == b; }
 
 enum material_change material_change(const struct monge_layers *older, const struct monge_layers *newer,
                                      size_t i) {

@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "base/same.h"
 #include "base/wrap.h"
 #include "grammar_tables.h"
 #include "lang/file.h"
@@ -37,8 +38,6 @@ static bool has_alternatives(const struct grammar_kind *kind) {
         if (kind->keys[i].alternative) return true;
     return false;
 }
-
-static bool same_text(const char *a, const char *b) { return a == b || (a && b && strcmp(a, b) == 0); }
 
 /* Whether all that print_key says of them is the same. */
 static bool same_key(const struct grammar_key *a, const struct grammar_key *b) {
