@@ -200,6 +200,19 @@ static struct row rows[] = {
     {"five are summed up", SCENE("", KEY, FLOOR THREE PEARL("d", "1", "red")),
      SCENE("", ELSEWHERE, FLOOR THREE PEARL("d", "1", "red")), "point light (scene.yaml:3): moved\n" SUM("5"),
      0},
+    {"shadows too where lights of other colours stand the other way round",
+     SCENE("", KEY ", " FILL, FLOOR THREE PEARL("d", "1", "red")),
+     SCENE("", "{point: {at: [6, 3, 4], color: [0.3, 0.2, 0.2]}}, " WARM, FLOOR THREE PEARL("d", "1", "red")),
+     "point light (scene.yaml:3): colour or strength changed\n"
+     "point light (scene.yaml:3): colour or strength changed\n" SUM("5"),
+     0},
+    {"but no shadow where colours alone have changed, and an object has moved",
+     SCENE("", KEY, FLOOR THREE PEARL("d", "1", "red") PEARL("e", "2", "red")),
+     SCENE("", WARM, FLOOR THREE PEARL("d", "1", "red") PEARL("e", "2.3", "red")),
+     "point light (scene.yaml:3): colour or strength changed\n" /* and of five objects */
+     SUM("5") "object \"e\" (scene.yaml:10): geometry moved\nobject \"floor\" (scene.yaml:5): shadow "
+              "changed\n",
+     0},
     {"but not where materials are not known", SCENE("", KEY, FLOOR THREE PEARL("d", "1", "red")),
      SCENE("", WARM, FLOOR THREE PEARL("d", "1", "red")),
      "point light (scene.yaml:3): colour or strength changed\n"
